@@ -1,0 +1,33 @@
+#ifndef kedge_points_parameters_h
+#define kedge_points_parameters_h
+
+#include <kedge/points/geometry.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace kedge
+{
+  enum class BasisKind
+  {
+    linear,
+    gimp
+  };
+
+  /** One body: where its material points stand and what they start with. */
+  template <int dim>
+  struct BodyParameters
+  {
+    std::string                     name;
+    std::shared_ptr<Geometry<dim>>  geometry;
+    unsigned int                    material = 0; ///< index into the scene's materials
+    std::array<unsigned int, dim>   points_per_cell;
+    BasisKind                       basis = BasisKind::gimp;
+    std::array<std::string, dim>    initial_velocity; ///< expressions of x, y, z [m/s]
+    bool                            body_force = true;
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,68 @@
+#ifndef kedge_points_point_state_h
+#define kedge_points_point_state_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/particles/property_pool.h>
+
+#include <cstdint>
+#include <type_traits>
+
+namespace kedge
+{
+  /**
+   * The committed history of one material point: what it knows at the end of
+   * the last accepted step. It is stored as plain doubles in the particle
+   * handler's property pool, so it migrates between ranks and is written to
+   * checkpoints without further code.
+   *
+   * Tensors of a plane-strain run (dim = 2) hold the in-plane part; the
+   * out-of-plane components that are not constant stand in fields of their
+   * own. The total out-of-plane stretch of plane strain is 1.
+   */
+  template <int dim>
+  struct PointState
+  {
+    double                          body;             ///< index of its body [-]
+    double                          loaded;           ///< 1 if point loads or tractions act on it
+    double                          mass;             ///< [kg; kg/m in 2D]
+    double                          reference_volume; ///< V0 [m^3; m^2 in 2D]
+    dealii::Tensor<1, dim>          reference_position; ///< X [m]
+    dealii::Tensor<1, dim>          displacement;       ///< x - X, accumulated [m]
+    dealii::Tensor<1, dim>          velocity;           ///< [m/s]
+    dealii::Tensor<1, dim>          acceleration;       ///< [m/s^2], used by schemes that carry it
+    dealii::Tensor<1, dim>          reference_half_lengths; ///< GIMP domain at the start [m]
+    dealii::Tensor<1, dim>          half_lengths;           ///< GIMP domain now [m]
+    dealii::Tensor<2, dim>          deformation_gradient;   ///< F = dx/dX
+    /**
+     * B with B B^T = b^e, the elastic left Cauchy-Green tensor: its columns
+     * are the principal directions scaled by the principal elastic stretches.
+     */
+    dealii::Tensor<2, dim>          elastic_frame;
+    double                          out_of_plane_elastic_stretch; ///< plane strain; 1 in 3D
+    dealii::SymmetricTensor<2, dim> kirchhoff_stress;              ///< tau [Pa]
+    double                          out_of_plane_kirchhoff_stress; ///< plane strain; 0 in 3D [Pa]
+    double                          strain_energy;  ///< elastic free energy per V0 [J/m^3]
+    double                          hardening_energy;    ///< per V0 [J/m^3]
+    double                          plastic_dissipation; ///< accumulated, per V0 [J/m^3]
+    double                          equivalent_plastic_strain; ///< alpha [-]
+  };
+
+  template <int dim>
+  constexpr unsigned int n_state_values = sizeof(PointState<dim>) / sizeof(double);
+
+  static_assert(std::is_standard_layout_v<PointState<2>> && std::is_standard_layout_v<PointState<3>>);
+  static_assert(sizeof(PointState<3>) % sizeof(double) == 0);
+
+  /** A material point as it leaves the cloud: for output, checkpoints, rebuilding. */
+  template <int dim>
+  struct PointRecord
+  {
+    std::uint64_t      id; ///< unique in the run, never changes
+    dealii::Point<dim> location;
+    PointState<dim>    state;
+  };
+} // namespace kedge
+
+#endif

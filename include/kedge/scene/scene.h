@@ -1,0 +1,45 @@
+#ifndef kedge_scene_scene_h
+#define kedge_scene_scene_h
+
+#include <kedge/grid/parameters.h>
+#include <kedge/io/parameters.h>
+#include <kedge/materials/parameters.h>
+#include <kedge/points/parameters.h>
+#include <kedge/solid/loads.h>
+#include <kedge/solvers/parameters.h>
+#include <kedge/time_integration/parameters.h>
+#include <kedge/transfer/parameters.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace kedge
+{
+  /** All that a scene file says, checked; owned by nobody else. */
+  template <int dim>
+  struct Scene
+  {
+    std::string                               name;  ///< the file's name without folder and ending
+    std::string                               title;
+    std::map<std::string, double>             constants; ///< of all expressions
+    GridParameters<dim>                       grid;
+    std::vector<NodeConditionParameters<dim>> node_conditions;
+    std::vector<MaterialParameters>           materials;
+    std::vector<BodyParameters<dim>>          bodies;
+    std::array<std::string, dim>              body_force; ///< expressions of t [m/s^2]
+    std::vector<PointLoadParameters<dim>>     point_loads;
+    std::vector<TractionParameters<dim>>      tractions;
+    TimeParameters                            time;
+    NewtonParameters                          newton;
+    LinearSolverParameters                    linear_solver;
+    TransferParameters                        transfer;
+    OutputParameters                          output;
+    std::vector<ProbeParameters<dim>>         probes;
+    std::vector<CheckParameters>              checks;
+    std::string parameters; ///< all values used, as a scene file that runs again as it is
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,29 @@
+#ifndef kedge_solvers_parameters_h
+#define kedge_solvers_parameters_h
+
+namespace kedge
+{
+  struct NewtonParameters
+  {
+    double       tolerance      = 1e-11; ///< of criterion (3.185) [-]
+    unsigned int max_iterations = 20;
+  };
+
+  enum class LinearSolverKind
+  {
+    automatic,
+    banded,  ///< LAPACK's band LU
+    direct,  ///< UMFPACK
+    krylov_ilu,
+    krylov_amg
+  };
+
+  struct LinearSolverParameters
+  {
+    LinearSolverKind kind           = LinearSolverKind::automatic;
+    double           tolerance      = 1e-10; ///< relative residual of Krylov methods [-]
+    unsigned int     max_iterations = 1000;
+  };
+} // namespace kedge
+
+#endif

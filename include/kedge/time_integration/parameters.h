@@ -1,0 +1,43 @@
+#ifndef kedge_time_integration_parameters_h
+#define kedge_time_integration_parameters_h
+
+#include <optional>
+#include <vector>
+
+namespace kedge
+{
+  enum class SchemeKind
+  {
+    quasi_static,
+    clc_midpoint,
+    midpoint,
+    trapezoidal,
+    newmark,
+    generalised_alpha
+  };
+
+  enum class StepSizeKind
+  {
+    fixed,
+    cfl_initial, ///< factor times the CFL step of the first configuration
+    cfl_adaptive ///< factor times the CFL step (3.127), renewed every step
+  };
+
+  struct TimeParameters
+  {
+    SchemeKind          scheme = SchemeKind::clc_midpoint;
+    double              start  = 0;
+    double              end    = 1;
+    StepSizeKind        step_kind = StepSizeKind::fixed;
+    double              step       = 0.1;  ///< [s], step_kind fixed
+    double              cfl_factor = 15;   ///< [-], step_kind cfl_*
+    double              minimum_step_factor = 1. / 1024; ///< floor, times the nominal step
+    std::vector<double> break_times;       ///< times that a step must end at [s]
+    double              newmark_beta  = 0.25;
+    double              newmark_gamma = 0.5;
+    double              spectral_radius = 0.818; ///< rho_infinity of generalised-alpha
+    bool                carry_acceleration = true; ///< false: the thesis's printed a_n = 0
+  };
+} // namespace kedge
+
+#endif

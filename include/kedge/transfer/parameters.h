@@ -1,0 +1,20 @@
+#ifndef kedge_transfer_parameters_h
+#define kedge_transfer_parameters_h
+
+namespace kedge
+{
+  enum class VelocityMapping
+  {
+    flip,
+    pic
+  };
+
+  struct TransferParameters
+  {
+    VelocityMapping velocity_mapping = VelocityMapping::flip;
+    double          lumping          = 0;     ///< epsilon of (3.161): 0 consistent, 1 lumped
+    bool            audit            = false; ///< write what each mapping loses, Tables 3.1, 3.2
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,1 @@
+#include <kedge/points/geometry.h>
