@@ -1,0 +1,81 @@
+#ifndef kedge_grid_node_conditions_h
+#define kedge_grid_node_conditions_h
+
+#include <kedge/base/expression.h>
+#include <kedge/grid/active_nodes.h>
+
+namespace kedge
+{
+  /**
+   * Which displacement components of the active nodes are prescribed, and
+   * what their motion is. Where two conditions meet in one component, the
+   * later one in the scene wins.
+   */
+  template <int dim>
+  class NodeConditions
+  {
+  public:
+    /** @throws UserError for expressions that cannot be read. */
+    NodeConditions(const std::vector<NodeConditionParameters<dim>> &parameters,
+                   const std::map<std::string, double>             &constants);
+
+    /** Finds the prescribed components of the active nodes. */
+    void
+    reinit(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes);
+
+    /** True if component @p d of local node @p node is prescribed. */
+    bool
+    prescribed(const unsigned int node, const int d) const
+    {
+      return condition_of[std::size_t(node) * dim + d] >= 0;
+    }
+
+    /** Displacement of a prescribed component over the step from @p t0 to @p t1 [m]. */
+    double
+    increment(const unsigned int node, const int d, const double t0, const double t1) const;
+
+    /** Mean velocity of a prescribed component from @p t0 to @p t1 [m/s]. */
+    double
+    velocity(const unsigned int node, const int d, const double t0, const double t1) const
+    {
+      return increment(node, d, t0, t1) / (t1 - t0);
+    }
+
+    bool
+    any_moving() const
+    {
+      return any_moving_;
+    }
+
+    bool
+    empty() const
+    {
+      return conditions.empty();
+    }
+
+  private:
+    struct Motion
+    {
+      ConditionKind             kind;
+      std::optional<Expression> expression;
+    };
+    struct Condition
+    {
+      bool                      on_side;
+      unsigned int              side;
+      std::optional<Expression> where;
+      std::array<Motion, dim>   motions;
+    };
+
+    bool
+    applies(const Condition           &condition,
+            const Lattice<dim>        &lattice,
+            const LatticeIndex<dim>   &node) const;
+
+    std::vector<Condition>   conditions;
+    std::vector<short>       condition_of; ///< of each local node and component, or -1
+    bool                     any_moving_ = false;
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,39 @@
+#ifndef kedge_points_generation_h
+#define kedge_points_generation_h
+
+#include <kedge/base/expression.h>
+#include <kedge/grid/lattice.h>
+#include <kedge/materials/parameters.h>
+#include <kedge/points/parameters.h>
+#include <kedge/points/point_state.h>
+
+namespace kedge
+{
+  /** A newly made material point and the faces of its sub-cell that no neighbour of its body covers. */
+  template <int dim>
+  struct GeneratedPoint
+  {
+    PointRecord<dim> record;
+    unsigned int     exposed_sides; ///< bit 2*direction + (0: low, 1: high)
+  };
+
+  /**
+   * Makes the material points of one body: every cell of the background grid
+   * is divided into equal sub-cells, and each sub-cell whose centre lies in
+   * the body becomes a point with the sub-cell's volume, at rest strain.
+   * Ids count up from @p first_id. In MPI runs every rank makes all points
+   * (the caller keeps its share).
+   *
+   * @throws UserError if the body lies outside the grid or gets no point.
+   */
+  template <int dim>
+  std::vector<GeneratedPoint<dim>>
+  generate_points(const BodyParameters<dim>           &body,
+                  const unsigned int                   body_index,
+                  const MaterialParameters            &material,
+                  const Lattice<dim>                  &lattice,
+                  const std::map<std::string, double> &constants,
+                  const std::uint64_t                  first_id);
+} // namespace kedge
+
+#endif

@@ -1,0 +1,104 @@
+#ifndef kedge_points_material_points_h
+#define kedge_points_material_points_h
+
+#include <kedge/grid/background_grid.h>
+#include <kedge/points/point_state.h>
+
+#include <deal.II/particles/particle_handler.h>
+
+namespace kedge
+{
+  /**
+   * The cloud of material points with their committed history, stored cell by
+   * cell in a deal.II ParticleHandler. Points are visited in the handler's
+   * order; the position in that order is the point's local number until the
+   * next relocation.
+   */
+  template <int dim>
+  class MaterialPoints
+  {
+  public:
+    /**
+     * Starts an empty cloud on the grid and inserts @p records: each rank
+     * passes any share of them, they go to the ranks that own their cells
+     * (collective). Within a cell they stand in the order given, shares of
+     * lower ranks first.
+     *
+     * @throws dealii::ExceptionBase if a record lies outside the grid's window.
+     */
+    void
+    distribute(const BackgroundGrid<dim> &grid, std::vector<PointRecord<dim>> records);
+
+    /** The local points in their order. */
+    std::vector<PointRecord<dim>>
+    records() const;
+
+    unsigned int
+    n_local() const
+    {
+      return handler ? handler->n_locally_owned_particles() : 0;
+    }
+
+    std::uint64_t
+    n_global() const
+    {
+      return n_global_;
+    }
+
+    /** Calls visit(local number, id, location, const PointState &) for all local points. */
+    template <typename Visitor>
+    void
+    for_each(const Visitor &visit) const
+    {
+      unsigned int number = 0;
+      for (const auto &particle : *handler)
+        visit(number++, particle.get_id(), particle.get_location(), state_of(particle));
+    }
+
+    /** Calls update(local number, location, PointState &); both may be changed. */
+    template <typename Update>
+    void
+    update_each(const Update &update)
+    {
+      unsigned int number = 0;
+      for (auto &particle : *handler)
+        {
+          dealii::Point<dim> location = particle.get_location();
+          update(number++, location, mutable_state_of(particle));
+          particle.set_location(location);
+        }
+    }
+
+    /**
+     * Sorts the points into the cells (and to the ranks) where they stand
+     * now (collective). All must lie in the window.
+     *
+     * @return the number of points that went missing, which must be 0
+     */
+    std::uint64_t
+    relocate(const BackgroundGrid<dim> &grid);
+
+  private:
+    template <typename Accessor>
+    static const PointState<dim> &
+    state_of(const Accessor &particle)
+    {
+      return *reinterpret_cast<const PointState<dim> *>(particle.get_properties().data());
+    }
+
+    template <typename Accessor>
+    static PointState<dim> &
+    mutable_state_of(Accessor &particle)
+    {
+      return *reinterpret_cast<PointState<dim> *>(particle.get_properties().data());
+    }
+
+    bool
+    relocate_within_rank(const BackgroundGrid<dim> &grid);
+
+    std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
+    std::uint64_t                                            n_global_ = 0;
+  };
+} // namespace kedge
+
+#endif

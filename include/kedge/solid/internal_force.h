@@ -1,0 +1,89 @@
+#ifndef kedge_solid_internal_force_h
+#define kedge_solid_internal_force_h
+
+#include <kedge/materials/material.h>
+#include <kedge/stress/force_stress.h>
+#include <kedge/transfer/node_sums.h>
+
+namespace kedge
+{
+  /** Whether all material points could answer to a trial displacement. */
+  struct PointStatus
+  {
+    static constexpr unsigned int none = static_cast<unsigned int>(-1);
+
+    unsigned int failed_slot = none; ///< first point whose det F <= 0 or whose stress is not finite
+
+    bool
+    ok() const
+    {
+      return failed_slot == none;
+    }
+  };
+
+  /**
+   * The internal force (3.116)/(3.133) of trial displacements u of the
+   * active nodes, and its derivative. Both are partial sums over the points
+   * of this rank. They hold the gradients of the basis at the configuration n
+   * and carry dF in the stress (see ForceStress).
+   */
+  template <int dim>
+  class InternalForce
+  {
+  public:
+    /**
+     * @param material_of_body one per body
+     * @param rule, alpha      see StressRule
+     */
+    InternalForce(const std::vector<Material> &material_of_body,
+                  const StressRule             rule,
+                  const double                 alpha);
+
+    /**
+     * Adds sum_p V0 P dN_A/dx_n to @p force [N], dim values per local node.
+     * Stops at the first point that fails.
+     */
+    PointStatus
+    add_force(const StepPoints<dim>     &points,
+              const LatticeWindow<dim>  &window,
+              const ActiveNodes<dim>    &nodes,
+              const std::vector<double> &displacement,
+              std::vector<double>       &force) const;
+
+    /**
+     * Adds d force / d u to @p stiffness [N/m]. The displacement must be one
+     * for which add_force() succeeded.
+     */
+    void
+    add_stiffness(const StepPoints<dim>     &points,
+                  const LatticeWindow<dim>  &window,
+                  const ActiveNodes<dim>    &nodes,
+                  const std::vector<double> &displacement,
+                  NodeMatrix<dim>           &stiffness) const;
+
+    const Material &
+    material_of_body(const unsigned int body) const
+    {
+      return materials[body];
+    }
+
+    StressRule
+    rule() const
+    {
+      return stress_rule;
+    }
+
+    double
+    alpha() const
+    {
+      return fraction;
+    }
+
+  private:
+    std::vector<Material> materials;
+    StressRule            stress_rule;
+    double                fraction;
+  };
+} // namespace kedge
+
+#endif

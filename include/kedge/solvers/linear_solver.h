@@ -1,0 +1,85 @@
+#ifndef kedge_solvers_linear_solver_h
+#define kedge_solvers_linear_solver_h
+
+#include <kedge/solvers/parameters.h>
+#include <kedge/solvers/sparse_system.h>
+
+#include <memory>
+#include <string>
+
+namespace kedge
+{
+  /** How a factorisation or a solve ended. */
+  struct LinearStatus
+  {
+    bool         success    = true;
+    unsigned int iterations = 0;   ///< of Krylov methods; 0 for direct ones
+    std::int64_t equation   = -1;  ///< global equation that looks singular, if known
+    std::string  cause;            ///< empty on success
+
+    static LinearStatus
+    failure(const std::string &cause, const std::int64_t equation = -1)
+    {
+      LinearStatus status;
+      status.success  = false;
+      status.cause    = cause;
+      status.equation = equation;
+      return status;
+    }
+  };
+
+  /** What is known of a matrix beforehand; steers the choice of `automatic`. */
+  struct MatrixTraits
+  {
+    int  space_dimension      = 2;
+    bool positive_definite    = false; ///< symmetric positive definite
+    bool dominated_by_inertia = false; ///< well conditioned: ILU will do
+  };
+
+  /**
+   * Solves sparse systems, choosing the method by size, bandwidth and
+   * dimension: LAPACK's band LU for narrow matrices, UMFPACK for other small
+   * ones, GMRES or CG with ILU(0) or algebraic multigrid (ML) for large ones.
+   * Rows and columns are scaled by 1/sqrt|diagonal| first, so that nodes of
+   * little mass do no harm. Direct methods gather the system on rank 0.
+   */
+  class LinearSolver
+  {
+  public:
+    LinearSolver(const LinearSolverParameters &parameters, const MatrixTraits &traits);
+    ~LinearSolver();
+    LinearSolver(LinearSolver &&) noexcept;
+    LinearSolver &
+    operator=(LinearSolver &&) noexcept;
+
+    /** Announces a new pattern; the next factorise() analyses it. */
+    void
+    pattern_changed();
+
+    /** Prepares the solution with the values of @p system (collective). */
+    LinearStatus
+    factorise(const SparseSystem &system);
+
+    /** Solves A x = b for this rank's rows (collective). */
+    LinearStatus
+    solve(const std::vector<double> &b, std::vector<double> &x);
+
+    /** The method in use, for the log. */
+    std::string
+    method() const;
+
+    class Backend;
+
+  private:
+    LinearSolverParameters   parameters;
+    MatrixTraits             traits;
+    LinearSolverKind         chosen = LinearSolverKind::automatic;
+    bool                     new_pattern = true;
+    std::unique_ptr<Backend> backend;
+
+    void
+    choose(const SparseSystem &system);
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,202 @@
+#ifndef kedge_stress_relative_stress_h
+#define kedge_stress_relative_stress_h
+
+#include <kedge/base/incremental_spectrum.h>
+#include <kedge/base/symmetric_index.h>
+
+#include <cmath>
+
+namespace kedge
+{
+  /**
+   * The committed state of a material point that its stress depends on, in
+   * the configuration n at the start of the step.
+   */
+  template <int dim>
+  struct StressState
+  {
+    double elastic_frame[dim][dim]; ///< B, B B^T = b^e_n, orthogonal columns
+    double squared_stretch[dim];    ///< squared length of each column of B
+    double strain[3];               ///< principal elastic Hencky strain eps_n
+    double left_cauchy_green[n_symmetric<dim>]; ///< total b_n = F_n F_n^T
+    double kirchhoff_stress[n_symmetric<dim>];  ///< tau_n [Pa]
+  };
+
+  /**
+   * The stress of a trial step, pulled back to the configuration n. With the
+   * relative deformation gradient dF = I + A, A = d(Delta u)/dx_n, and the
+   * relative Green-type strain E = A + A^T + A^T A (so that C - C_n =
+   * F_n^T E F_n), it is
+   *   S = dF^{-1} tau dF^{-T} [Pa], work-conjugate to E/2 per volume V0,
+   * the second Piola-Kirchhoff stress of the step. It is computed in the
+   * eigenframe of B^T (I + E) B, whose eigenvectors w_i give a_i = B w_i and
+   *   S = sum_i tau_i / lambda_i a_i (x) a_i.
+   */
+  template <int dim>
+  struct RelativeStress
+  {
+    double frame[dim][dim];    ///< a_i as columns
+    double rotation[dim][dim]; ///< w_i as columns
+    double lambda[dim];        ///< squared principal trial stretches
+    double increment[3];       ///< increment of the principal Hencky strain
+    double tau[3];             ///< principal Kirchhoff stress [Pa]
+    double stress[n_symmetric<dim>]; ///< S [Pa]
+    double work_increment;     ///< Delta Psi + Delta D per V0 [J/m^3]
+    bool   valid;              ///< false where an eigenvalue is not positive
+  };
+
+  /** E = A + A^T + A^T A in the order of symmetric_index(). */
+  template <int dim>
+  inline void
+  relative_strain(const double (&A)[dim][dim], double (&E)[n_symmetric<dim>])
+  {
+    for (int s = 0; s < n_symmetric<dim>; ++s)
+      {
+        const int i   = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
+        double    sum = A[i][j] + A[j][i];
+        for (int k = 0; k < dim; ++k)
+          sum += A[k][i] * A[k][j];
+        E[s] = sum;
+      }
+  }
+
+  /** det(I + A). */
+  template <int dim>
+  inline double
+  relative_determinant(const double (&A)[dim][dim])
+  {
+    if constexpr (dim == 2)
+      return (1. + A[0][0]) * (1. + A[1][1]) - A[0][1] * A[1][0];
+    else
+      return (1. + A[0][0]) * ((1. + A[1][1]) * (1. + A[2][2]) - A[1][2] * A[2][1]) -
+             A[0][1] * (A[1][0] * (1. + A[2][2]) - A[1][2] * A[2][0]) +
+             A[0][2] * (A[1][0] * A[2][1] - (1. + A[1][1]) * A[2][0]);
+  }
+
+  /** Evaluates RelativeStress at the relative strain @p E. */
+  template <int dim, class Material>
+  inline RelativeStress<dim>
+  evaluate_relative_stress(const Material         &material,
+                           const StressState<dim> &state,
+                           const double (&E)[n_symmetric<dim>])
+  {
+    RelativeStress<dim> result;
+    const auto         &B = state.elastic_frame;
+
+    // P = B^T E B
+    double EB[dim][dim], P[dim][dim], delta[dim];
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        {
+          EB[i][j] = 0.;
+          for (int k = 0; k < dim; ++k)
+            EB[i][j] += E[symmetric_index<dim>(i, k)] * B[k][j];
+        }
+    for (int i = 0; i < dim; ++i)
+      for (int j = i; j < dim; ++j)
+        {
+          double sum = 0.;
+          for (int k = 0; k < dim; ++k)
+            sum += B[k][i] * EB[k][j];
+          P[i][j] = P[j][i] = sum;
+        }
+    incremental_spectrum<dim>(state.squared_stretch, P, delta, result.rotation);
+
+    result.valid        = true;
+    result.increment[2] = 0.; // plane strain: no increment out of plane
+    for (int i = 0; i < dim; ++i)
+      {
+        result.lambda[i] = state.squared_stretch[i] + delta[i];
+        if (!(result.lambda[i] > 0.))
+          {
+            result.valid = false;
+            return result;
+          }
+        result.increment[i] = 0.5 * std::log1p(delta[i] / state.squared_stretch[i]);
+      }
+
+    const auto response = material.respond(state.strain, result.increment);
+    for (int i = 0; i < 3; ++i)
+      result.tau[i] = response.kirchhoff_stress[i];
+    result.work_increment = response.work_increment;
+
+    for (int i = 0; i < dim; ++i)
+      for (int k = 0; k < dim; ++k)
+        {
+          result.frame[k][i] = 0.;
+          for (int l = 0; l < dim; ++l)
+            result.frame[k][i] += B[k][l] * result.rotation[l][i];
+        }
+    for (int s = 0; s < n_symmetric<dim>; ++s)
+      {
+        const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
+        double    sum = 0.;
+        for (int i = 0; i < dim; ++i)
+          sum += result.tau[i] / result.lambda[i] * result.frame[k][i] * result.frame[l][i];
+        result.stress[s] = sum;
+      }
+    return result;
+  }
+
+  /**
+   * dS/dE in the order of symmetric_index(), as H[s][t] with the meaning
+   * dS_s = sum over all pairs (P, Q) of H[s][index(P, Q)] dE_PQ; minor
+   * symmetric, [Pa].
+   */
+  template <int dim, class Material>
+  inline void
+  relative_stress_tangent(const Material            &material,
+                          const RelativeStress<dim> &r,
+                          double (&H)[n_symmetric<dim>][n_symmetric<dim>])
+  {
+    constexpr int ns = n_symmetric<dim>;
+    double        same[dim][ns];
+    for (int i = 0; i < dim; ++i)
+      for (int s = 0; s < ns; ++s)
+        same[i][s] = r.frame[symmetric_row<dim>[s]][i] * r.frame[symmetric_column<dim>[s]][i];
+
+    for (int s = 0; s < ns; ++s)
+      for (int t = 0; t < ns; ++t)
+        H[s][t] = 0.;
+
+    for (int i = 0; i < dim; ++i)
+      {
+        double row[ns] = {};
+        for (int j = 0; j < dim; ++j)
+          {
+            double h = material.tangent(i, j) / (2. * r.lambda[i] * r.lambda[j]);
+            if (i == j)
+              h -= r.tau[i] / (r.lambda[i] * r.lambda[i]);
+            for (int t = 0; t < ns; ++t)
+              row[t] += h * same[j][t];
+          }
+        for (int s = 0; s < ns; ++s)
+          for (int t = 0; t < ns; ++t)
+            H[s][t] += same[i][s] * row[t];
+      }
+
+    for (int i = 0; i < dim - 1; ++i)
+      for (int j = i + 1; j < dim; ++j)
+        {
+          // (eps_i - eps_j) / (lambda_i - lambda_j) = log1p(x) / (2 x lambda_j)
+          const double li = r.lambda[i], lj = r.lambda[j], x = (li - lj) / lj;
+          const double ratio = std::abs(x) < 1e-4 ?
+                                 1. - x * (0.5 - x * (1. / 3. - 0.25 * x)) :
+                                 std::log1p(x) / x;
+          const double secant = material.secant_shear() * 0.5 * ratio / lj;
+          const double g =
+            (0.5 * (li + lj) * secant - 0.5 * (r.tau[i] + r.tau[j])) / (li * lj);
+          double mixed[ns];
+          for (int s = 0; s < ns; ++s)
+            {
+              const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
+              mixed[s]    = r.frame[k][i] * r.frame[l][j] + r.frame[l][i] * r.frame[k][j];
+            }
+          for (int s = 0; s < ns; ++s)
+            for (int t = 0; t < ns; ++t)
+              H[s][t] += 0.5 * g * mixed[s] * mixed[t];
+        }
+  }
+} // namespace kedge
+
+#endif

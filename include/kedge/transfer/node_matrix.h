@@ -1,0 +1,149 @@
+#ifndef kedge_transfer_node_matrix_h
+#define kedge_transfer_node_matrix_h
+
+#include <kedge/transfer/step_points.h>
+
+namespace kedge
+{
+  /**
+   * A matrix that couples each node with the nodes of the (2 radius + 1)^dim
+   * lattice neighbourhood around it, by blocks of n_components x n_components. Rows
+   * are the local active nodes; a block is found from the lattice offset of
+   * its two nodes, so assembly needs no sparsity pattern. On several ranks
+   * each holds the sum over its own points; the shares are added up only when
+   * a linear system is formed (EquationSystem).
+   *
+   * Storage: values[((row * n_components + p) * n_slots + slot) * n_components + m].
+   */
+  template <int dim>
+  class NodeMatrix
+  {
+  public:
+    void
+    reinit(const unsigned int n_rows, const unsigned int n_components, const int radius)
+    {
+      n_components_ = n_components;
+      radius_       = radius;
+      n_slots_      = 1;
+      for (int d = 0; d < dim; ++d)
+        n_slots_ *= 2 * radius + 1;
+      values_.resize(std::size_t(n_rows) * n_components * n_slots_ * n_components);
+    }
+
+    void
+    set_zero()
+    {
+      std::fill(values_.begin(), values_.end(), 0.);
+    }
+
+    unsigned int
+    n_slots() const
+    {
+      return n_slots_;
+    }
+
+    unsigned int
+    n_components() const
+    {
+      return n_components_;
+    }
+
+    int
+    radius() const
+    {
+      return radius_;
+    }
+
+    /** Slot of a node's neighbour at lattice offset @p offset. */
+    unsigned int
+    slot(const LatticeIndex<dim> &offset) const
+    {
+      int number = 0;
+      for (int d = dim - 1; d >= 0; --d)
+        number = number * (2 * radius_ + 1) + offset[d] + radius_;
+      return number;
+    }
+
+    /** Change of the window node number from a node to its neighbour at each slot. */
+    std::vector<int>
+    slot_strides(const LatticeWindow<dim> &window) const
+    {
+      const auto       strides = window.node_strides();
+      std::vector<int> result(n_slots_);
+      for (unsigned int s = 0; s < n_slots_; ++s)
+        {
+          int rest = s, step = 0;
+          for (int d = 0; d < dim; ++d)
+            {
+              step += (rest % (2 * radius_ + 1) - radius_) * strides[d];
+              rest /= 2 * radius_ + 1;
+            }
+          result[s] = step;
+        }
+      return result;
+    }
+
+    /** Values of row @p node, component @p p: n_slots x n_components. */
+    double *
+    row(const unsigned int node, const unsigned int p)
+    {
+      return values_.data() + (std::size_t(node) * n_components_ + p) * n_slots_ * n_components_;
+    }
+
+    const double *
+    row(const unsigned int node, const unsigned int p) const
+    {
+      return values_.data() + (std::size_t(node) * n_components_ + p) * n_slots_ * n_components_;
+    }
+
+    /** Values per node. */
+    unsigned int
+    row_size() const
+    {
+      return n_components_ * n_slots_ * n_components_;
+    }
+
+    std::vector<double> &
+    values()
+    {
+      return values_;
+    }
+
+  private:
+    unsigned int        n_components_ = 0;
+    unsigned int        n_slots_      = 0;
+    int                 radius_       = 0;
+    std::vector<double> values_;
+  };
+
+  /** Slots of all node pairs of a stencil pattern: slots[A][B] is the slot of B in the row of A. */
+  template <int dim, unsigned int pattern>
+  inline std::array<std::array<unsigned int, stencil_size<dim>(pattern)>,
+                    stencil_size<dim>(pattern)>
+  pair_slots(const NodeMatrix<dim> &matrix)
+  {
+    constexpr int n = stencil_size<dim>(pattern);
+    const auto    coordinates = [](int A) {
+      LatticeIndex<dim> index;
+      for (int d = 0; d < dim; ++d)
+        {
+          index[d] = A % stencil_width(pattern, d);
+          A /= stencil_width(pattern, d);
+        }
+      return index;
+    };
+    std::array<std::array<unsigned int, n>, n> slots;
+    for (int A = 0; A < n; ++A)
+      for (int B = 0; B < n; ++B)
+        {
+          const auto        a = coordinates(A), b = coordinates(B);
+          LatticeIndex<dim> offset;
+          for (int d = 0; d < dim; ++d)
+            offset[d] = b[d] - a[d];
+          slots[A][B] = matrix.slot(offset);
+        }
+    return slots;
+  }
+} // namespace kedge
+
+#endif

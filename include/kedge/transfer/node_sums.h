@@ -1,0 +1,86 @@
+#ifndef kedge_transfer_node_sums_h
+#define kedge_transfer_node_sums_h
+
+#include <kedge/grid/active_nodes.h>
+#include <kedge/transfer/node_matrix.h>
+
+namespace kedge
+{
+  /**
+   * Sums over material points to the nodes and back. Results at ghost nodes
+   * are partial until ActiveNodes::add_to_owners().
+   */
+
+  /** Consistent mass (3.118): M_AB = sum_p m N_A N_B, a NodeMatrix with one component [kg]. */
+  template <int dim>
+  void
+  assemble_mass(const StepPoints<dim>    &points,
+                const LatticeWindow<dim> &window,
+                const ActiveNodes<dim>   &nodes,
+                NodeMatrix<dim>          &mass);
+
+  /**
+   * (3.161): M~ = (1 - epsilon) M + epsilon diag(lumped), in place. The
+   * lumped mass (3.162) is the row sum of M.
+   */
+  template <int dim>
+  void
+  blend_mass(const double epsilon, NodeMatrix<dim> &mass, const unsigned int n_rows);
+
+  /**
+   * sum_p w_p N_A q_p for a vector per point: `dim` values per local node,
+   * added to @p sums. @p weights has one entry per slot (mass for momentum).
+   */
+  template <int dim>
+  void
+  add_to_nodes(const StepPoints<dim>                     &points,
+               const LatticeWindow<dim>                  &window,
+               const ActiveNodes<dim>                    &nodes,
+               const std::vector<double>                 &weights,
+               const std::vector<dealii::Tensor<1, dim>> &values,
+               std::vector<double>                       &sums);
+
+  /** sum_p N_A s_p for n_values scalars per point, slot-major; added to @p sums. */
+  template <int dim>
+  void
+  add_scalars_to_nodes(const StepPoints<dim>     &points,
+                       const LatticeWindow<dim>  &window,
+                       const ActiveNodes<dim>    &nodes,
+                       const std::vector<double> &values,
+                       const unsigned int         n_values,
+                       std::vector<double>       &sums);
+
+  /** v_p = sum_A N_A v_A for all slots. Ghost values must be up to date. */
+  template <int dim>
+  void
+  interpolate_to_points(const StepPoints<dim>               &points,
+                        const LatticeWindow<dim>            &window,
+                        const ActiveNodes<dim>              &nodes,
+                        const std::vector<double>           &nodal,
+                        std::vector<dealii::Tensor<1, dim>> &at_points);
+
+  /** d v_i / dx_j at one slot, [i][j]. */
+  template <int dim>
+  void
+  gradient_at_point(const StepPoints<dim>     &points,
+                    const LatticeWindow<dim>  &window,
+                    const ActiveNodes<dim>    &nodes,
+                    const std::vector<double> &nodal,
+                    const unsigned int         slot,
+                    double (&gradient)[dim][dim]);
+
+  /**
+   * y = A x with this rank's share of the matrix: partial sums at all local
+   * nodes. Ghost values of x must be up to date.
+   */
+  template <int dim>
+  void
+  multiply(const NodeMatrix<dim>     &matrix,
+           const LatticeWindow<dim>  &window,
+           const ActiveNodes<dim>    &nodes,
+           const unsigned int         n_components,
+           const std::vector<double> &x,
+           std::vector<double>       &y);
+} // namespace kedge
+
+#endif

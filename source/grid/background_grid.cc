@@ -1,0 +1,166 @@
+#include <kedge/grid/background_grid.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/grid_generator.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Cells kept free around the points, so that a window serves many steps. */
+    constexpr int window_margin = 4;
+
+    /** One p4est tree per cell is dear; larger windows are refined from fewer trees. */
+    constexpr unsigned int most_trees = 4096;
+  } // namespace
+
+
+
+  template <int dim>
+  BackgroundGrid<dim>::BackgroundGrid(const GridParameters<dim> &parameters,
+                                      const MPI_Comm             communicator)
+    : lattice_(parameters)
+    , communicator_(communicator)
+    , element(dealii::FE_Q<dim>(1), dim)
+  {}
+
+
+
+  template <int dim>
+  void
+  BackgroundGrid<dim>::cover(const LatticeWindow<dim>        &cells,
+                             const std::vector<unsigned int> &weights)
+  {
+    ++generation_;
+    for (int d = 0; d < dim; ++d)
+      {
+        const int spread   = std::max(window_margin, cells.n_cells[d] / 8);
+        window_.low[d]     = std::max(0, cells.low[d] - spread);
+        const int end      = std::min(lattice_.n_cells[d], cells.low[d] + cells.n_cells[d] + spread);
+        window_.n_cells[d] = std::max(2, end - window_.low[d]); // room for three nodes
+      }
+    n_refinements = 0;
+    while (window_.n_cells_total() >> (dim * n_refinements) > most_trees)
+      ++n_refinements;
+    const int unit = 1 << n_refinements;
+    for (int d = 0; d < dim; ++d)
+      window_.n_cells[d] = (window_.n_cells[d] + unit - 1) / unit * unit;
+
+    create_triangulation(weights, cells);
+    tabulate_cells();
+    tabulate_node_owners();
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundGrid<dim>::create_triangulation(const std::vector<unsigned int> &weights,
+                                            const LatticeWindow<dim>        &weighted_cells)
+  {
+    cell_iterators.clear();
+    dof_handler_.reset();
+    triangulation_ =
+      std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(communicator_);
+
+    dealii::Point<dim>        low = lattice_.node_position(window_.low), high;
+    std::vector<unsigned int> trees(dim);
+    for (int d = 0; d < dim; ++d)
+      {
+        high[d]  = lattice_.origin[d] + (window_.low[d] + window_.n_cells[d]) * lattice_.h[d];
+        trees[d] = window_.n_cells[d] >> n_refinements;
+      }
+    dealii::GridGenerator::subdivided_hyper_rectangle(*triangulation_, trees, low, high);
+    if (n_refinements > 0)
+      triangulation_->refine_global(n_refinements);
+
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1)
+      {
+        // an empty cell weighs 1, so that empty regions are shared out too
+        const auto weight = [&](const auto &cell, const auto) -> unsigned int {
+          const LatticeIndex<dim> index = lattice_.cell_of(cell->center());
+          return 1u + (weighted_cells.contains_cell(index) ?
+                         1000u * weights[weighted_cells.cell_number(index)] :
+                         0u);
+        };
+        const auto connection = triangulation_->signals.weight.connect(weight);
+        triangulation_->repartition();
+        connection.disconnect();
+      }
+
+    dof_handler_ = std::make_unique<dealii::DoFHandler<dim>>(*triangulation_);
+    dof_handler_->distribute_dofs(element);
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundGrid<dim>::tabulate_cells()
+  {
+    cell_iterators.assign(window_.n_cells_total(), triangulation_->end());
+    for (const auto &cell : triangulation_->active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          LatticeIndex<dim> index;
+          const auto        center = cell->center();
+          for (int d = 0; d < dim; ++d)
+            index[d] = static_cast<int>(std::floor(lattice_.scaled(center[d], d)));
+          cell_iterators[window_.cell_number(index)] = cell;
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundGrid<dim>::tabulate_node_owners()
+  {
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator_);
+    node_owners.assign(window_.n_nodes_total(), 0);
+    if (n_ranks == 1)
+      return;
+
+    const auto ranges =
+      dealii::Utilities::MPI::all_gather(communicator_, dof_handler_->locally_owned_dofs());
+    std::vector<dealii::types::global_dof_index> first_of_next;
+    for (const auto &range : ranges)
+      first_of_next.push_back((first_of_next.empty() ? 0 : first_of_next.back()) +
+                              range.n_elements());
+
+    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+    for (const auto &cell : dof_handler_->active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            LatticeIndex<dim> node;
+            for (int d = 0; d < dim; ++d)
+              node[d] = static_cast<int>(std::lround(lattice_.scaled(cell->vertex(v)[d], d)));
+            const auto dof = cell->vertex_dof_index(v, 0);
+            node_owners[window_.node_number(node)] = static_cast<unsigned int>(
+              std::upper_bound(first_of_next.begin(), first_of_next.end(), dof) -
+              first_of_next.begin());
+          }
+  }
+
+
+
+  template <int dim>
+  bool
+  BackgroundGrid<dim>::too_close_to_border(const LatticeIndex<dim> &cell) const
+  {
+    for (int d = 0; d < dim; ++d)
+      {
+        if (cell[d] <= window_.low[d] && window_.low[d] > 0)
+          return true;
+        const int end = window_.low[d] + window_.n_cells[d];
+        if (cell[d] >= end - 1 && end < lattice_.n_cells[d])
+          return true;
+      }
+    return false;
+  }
+
+  template class BackgroundGrid<2>;
+  template class BackgroundGrid<3>;
+} // namespace kedge

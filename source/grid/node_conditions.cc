@@ -1,0 +1,99 @@
+#include <kedge/grid/node_conditions.h>
+
+namespace kedge
+{
+  namespace
+  {
+    const std::vector<std::string> coordinates = {"x", "y", "z"};
+  } // namespace
+
+
+
+  template <int dim>
+  NodeConditions<dim>::NodeConditions(
+    const std::vector<NodeConditionParameters<dim>> &parameters,
+    const std::map<std::string, double>             &constants)
+  {
+    for (const auto &p : parameters)
+      {
+        Condition condition;
+        condition.on_side = p.on_side;
+        condition.side    = p.side;
+        if (!p.on_side)
+          condition.where = Expression(p.where, coordinates, constants);
+        for (int d = 0; d < dim; ++d)
+          {
+            Motion &motion = condition.motions[d];
+            motion.kind    = p.components[d].kind;
+            if (motion.kind == ConditionKind::displacement ||
+                motion.kind == ConditionKind::velocity)
+              {
+                motion.expression = Expression(p.components[d].expression, {"t"}, constants);
+                any_moving_       = true;
+              }
+          }
+        conditions.push_back(std::move(condition));
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  NodeConditions<dim>::applies(const Condition         &condition,
+                               const Lattice<dim>      &lattice,
+                               const LatticeIndex<dim> &node) const
+  {
+    if (condition.on_side)
+      {
+        const int direction = condition.side / 2;
+        return node[direction] == (condition.side % 2 == 0 ? 0 : lattice.n_cells[direction]);
+      }
+    const auto x    = lattice.node_position(node);
+    double     v[3] = {0, 0, 0};
+    for (int d = 0; d < dim; ++d)
+      v[d] = x[d];
+    return (*condition.where)(v) != 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  NodeConditions<dim>::reinit(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes)
+  {
+    condition_of.assign(std::size_t(nodes.n_local()) * dim, -1);
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+        if (applies(conditions[c],
+                    grid.lattice(),
+                    grid.window().node_index(nodes.window_node(i))))
+          for (int d = 0; d < dim; ++d)
+            if (conditions[c].motions[d].kind != ConditionKind::free)
+              condition_of[std::size_t(i) * dim + d] = c;
+  }
+
+
+
+  template <int dim>
+  double
+  NodeConditions<dim>::increment(const unsigned int node,
+                                 const int          d,
+                                 const double       t0,
+                                 const double       t1) const
+  {
+    const Motion &motion = conditions[condition_of[std::size_t(node) * dim + d]].motions[d];
+    switch (motion.kind)
+      {
+        case ConditionKind::displacement:
+          return (*motion.expression)({t1}) - (*motion.expression)({t0});
+        case ConditionKind::velocity:
+          return (*motion.expression)({0.5 * (t0 + t1)}) * (t1 - t0);
+        default:
+          return 0.;
+      }
+  }
+
+  template class NodeConditions<2>;
+  template class NodeConditions<3>;
+} // namespace kedge

@@ -1,0 +1,173 @@
+#include <kedge/points/material_points.h>
+
+#include <deal.II/base/mpi.templates.h>
+
+#include <cstring>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Owner rank of every cell of the window (collective). */
+    template <int dim>
+    std::vector<unsigned int>
+    cell_owners(const BackgroundGrid<dim> &grid)
+    {
+      std::vector<unsigned int> owned;
+      const auto               &window = grid.window();
+      for (unsigned int c = 0; c < window.n_cells_total(); ++c)
+        {
+          const auto &cell = grid.cell_iterator(window.cell_index(c));
+          if (cell != grid.triangulation().end() && cell->is_locally_owned())
+            owned.push_back(c);
+        }
+      const auto all = dealii::Utilities::MPI::all_gather(grid.communicator(), owned);
+      std::vector<unsigned int> owners(window.n_cells_total(), 0);
+      for (unsigned int rank = 0; rank < all.size(); ++rank)
+        for (const unsigned int c : all[rank])
+          owners[c] = rank;
+      return owners;
+    }
+
+    template <int dim>
+    constexpr std::size_t record_values = sizeof(PointRecord<dim>) / sizeof(double);
+
+    /** Sends each record to the rank that owns its cell. */
+    template <int dim>
+    std::vector<PointRecord<dim>>
+    send_to_owners(const BackgroundGrid<dim>           &grid,
+                   const std::vector<PointRecord<dim>> &records)
+    {
+      const std::vector<unsigned int>             owners = cell_owners(grid);
+      std::map<unsigned int, std::vector<double>> outgoing;
+      for (const auto &record : records)
+        {
+          const auto cell = grid.lattice().cell_of(record.location);
+          AssertThrow(grid.window().contains_cell(cell),
+                      dealii::ExcMessage("A material point lies outside the grid's window."));
+          auto             &buffer = outgoing[owners[grid.window().cell_number(cell)]];
+          const std::size_t begin  = buffer.size();
+          buffer.resize(begin + record_values<dim>);
+          std::memcpy(&buffer[begin], &record, sizeof(record));
+        }
+      const auto incoming = dealii::Utilities::MPI::some_to_some(grid.communicator(), outgoing);
+
+      std::vector<PointRecord<dim>> mine;
+      for (const auto &[rank, buffer] : incoming)
+        {
+          (void)rank;
+          for (std::size_t i = 0; i < buffer.size(); i += record_values<dim>)
+            {
+              mine.emplace_back();
+              std::memcpy(static_cast<void *>(&mine.back()), &buffer[i], sizeof(mine.back()));
+            }
+        }
+      return mine;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::distribute(const BackgroundGrid<dim>    &grid,
+                                  std::vector<PointRecord<dim>> records)
+  {
+    static_assert(sizeof(PointRecord<dim>) % sizeof(double) == 0);
+    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      records = send_to_owners(grid, records);
+
+    handler.reset();
+    handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation(),
+                                                                        grid.mapping(),
+                                                                        n_state_values<dim>);
+    const auto &lattice = grid.lattice();
+    for (const auto &record : records)
+      {
+        const auto         cell = lattice.cell_of(record.location);
+        dealii::Point<dim> unit;
+        for (int d = 0; d < dim; ++d)
+          unit[d] = lattice.scaled(record.location[d], d) - cell[d];
+        handler->insert_particle(
+          record.location,
+          unit,
+          record.id,
+          grid.cell_iterator(cell),
+          dealii::ArrayView<const double>(reinterpret_cast<const double *>(&record.state),
+                                          n_state_values<dim>));
+      }
+    handler->update_cached_numbers();
+    n_global_ = handler->n_global_particles();
+  }
+
+
+
+  template <int dim>
+  std::vector<PointRecord<dim>>
+  MaterialPoints<dim>::records() const
+  {
+    std::vector<PointRecord<dim>> result;
+    result.reserve(n_local());
+    for_each([&](const unsigned int,
+                 const std::uint64_t       id,
+                 const dealii::Point<dim> &location,
+                 const PointState<dim>    &state) { result.push_back({id, location, state}); });
+    return result;
+  }
+
+
+
+  template <int dim>
+  bool
+  MaterialPoints<dim>::relocate_within_rank(const BackgroundGrid<dim> &grid)
+  {
+    using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
+    std::vector<std::pair<Iterator, typename BackgroundGrid<dim>::CellIterator>> movers;
+    for (auto particle = handler->begin(); particle != handler->end(); ++particle)
+      {
+        const auto &cell = grid.cell_iterator(grid.lattice().cell_of(particle->get_location()));
+        if (particle->get_surrounding_cell() != cell)
+          {
+            if (!cell->is_locally_owned())
+              return false;
+            movers.emplace_back(particle, cell);
+          }
+      }
+    if (movers.empty())
+      return true;
+
+    std::vector<dealii::Particles::Particle<dim>> copies;
+    std::vector<Iterator>                         leaving;
+    for (const auto &[particle, cell] : movers)
+      {
+        (void)cell;
+        copies.emplace_back(*particle);
+        leaving.push_back(particle);
+      }
+    handler->remove_particles(leaving);
+    for (unsigned int i = 0; i < movers.size(); ++i)
+      handler->insert_particle(copies[i], movers[i].second);
+    handler->update_cached_numbers();
+    return true;
+  }
+
+
+
+  template <int dim>
+  std::uint64_t
+  MaterialPoints<dim>::relocate(const BackgroundGrid<dim> &grid)
+  {
+    bool within = relocate_within_rank(grid);
+    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      within = !dealii::Utilities::MPI::logical_or(!within, grid.communicator());
+    if (!within)
+      {
+        handler->sort_particles_into_subdomains_and_cells();
+        handler->update_cached_numbers();
+      }
+    return n_global_ - handler->n_global_particles();
+  }
+
+  template class MaterialPoints<2>;
+  template class MaterialPoints<3>;
+} // namespace kedge

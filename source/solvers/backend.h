@@ -1,0 +1,33 @@
+#ifndef kedge_solvers_backend_h
+#define kedge_solvers_backend_h
+
+#include <kedge/solvers/linear_solver.h>
+
+namespace kedge
+{
+  /** One way to solve linear systems; see LinearSolver for the contract. */
+  class LinearSolver::Backend
+  {
+  public:
+    virtual ~Backend() = default;
+
+    virtual LinearStatus
+    factorise(const SparseSystem &system, const bool new_pattern) = 0;
+
+    virtual LinearStatus
+    solve(const std::vector<double> &b, std::vector<double> &x) = 0;
+  };
+
+  std::unique_ptr<LinearSolver::Backend>
+  make_banded_backend(const MatrixTraits &traits);
+
+  std::unique_ptr<LinearSolver::Backend>
+  make_umfpack_backend();
+
+  std::unique_ptr<LinearSolver::Backend>
+  make_krylov_backend(const LinearSolverParameters &parameters,
+                      const MatrixTraits           &traits,
+                      const bool                    multigrid);
+} // namespace kedge
+
+#endif

@@ -1,0 +1,299 @@
+#include <kedge/transfer/node_sums.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Local numbers of the nodes of a stencil. */
+    template <int dim, unsigned int pattern>
+    std::array<int, stencil_size<dim>(pattern)>
+    local_nodes(const ActiveNodes<dim>                                             &nodes,
+                const std::array<unsigned int, stencil_size<dim>(pattern)>         &offsets,
+                const unsigned int                                                  first_node)
+    {
+      std::array<int, stencil_size<dim>(pattern)> result;
+      for (int A = 0; A < stencil_size<dim>(pattern); ++A)
+        result[A] = nodes.local(first_node + offsets[A]);
+      return result;
+    }
+
+    /** Runs a function over all points as visit(slot, local nodes, basis). */
+    template <int dim, typename Visit>
+    struct ForEachPoint
+    {
+      const StepPoints<dim>                 &points;
+      const LatticeWindow<dim>              &window;
+      const ActiveNodes<dim>                &nodes;
+      const Visit                           &visit;
+      const typename StepPoints<dim>::Batch *batch;
+
+      template <unsigned int pattern>
+      void
+      run() const
+      {
+        const auto offsets = node_offsets<dim, pattern>(window.node_strides());
+        std::array<int, stencil_size<dim>(pattern)> local{};
+        for (unsigned int slot = batch->begin; slot < batch->end; ++slot)
+          {
+            const Stencil<dim> &s = points.stencil[slot];
+            if (slot == batch->begin || s.first_node != points.stencil[slot - 1].first_node)
+              local = local_nodes<dim, pattern>(nodes, offsets, s.first_node);
+            visit(slot, local, expand<dim, pattern>(s));
+          }
+      }
+    };
+
+    template <int dim, typename Visit>
+    void
+    for_each_point(const StepPoints<dim>    &points,
+                   const LatticeWindow<dim> &window,
+                   const ActiveNodes<dim>   &nodes,
+                   const Visit              &visit)
+    {
+      for (const auto &batch : points.batches)
+        dispatch_pattern<dim>(batch.pattern,
+                              ForEachPoint<dim, Visit>{points, window, nodes, visit, &batch});
+    }
+
+    /** Assembles the mass of a batch; points with the same nodes are summed first. */
+    template <int dim>
+    struct AssembleMass
+    {
+      const StepPoints<dim>                 &points;
+      const LatticeWindow<dim>              &window;
+      const ActiveNodes<dim>                &nodes;
+      NodeMatrix<dim>                       &mass;
+      const typename StepPoints<dim>::Batch *batch;
+
+      template <unsigned int pattern>
+      void
+      run() const
+      {
+        constexpr int n       = stencil_size<dim>(pattern);
+        const auto    offsets = node_offsets<dim, pattern>(window.node_strides());
+        const auto    slots   = pair_slots<dim, pattern>(mass);
+        double        sum[n][n];
+        for (unsigned int slot = batch->begin; slot < batch->end;)
+          {
+            const unsigned int first = points.stencil[slot].first_node;
+            for (auto &row : sum)
+              std::fill(std::begin(row), std::end(row), 0.);
+            for (; slot < batch->end && points.stencil[slot].first_node == first; ++slot)
+              {
+                const auto basis = expand<dim, pattern>(points.stencil[slot]);
+                for (int A = 0; A < n; ++A)
+                  {
+                    const double mN = points.mass[slot] * basis.value[A];
+                    for (int B = 0; B < n; ++B)
+                      sum[A][B] += mN * basis.value[B];
+                  }
+              }
+            const auto local = local_nodes<dim, pattern>(nodes, offsets, first);
+            for (int A = 0; A < n; ++A)
+              {
+                double *row = mass.row(local[A], 0);
+                for (int B = 0; B < n; ++B)
+                  row[slots[A][B]] += sum[A][B];
+              }
+          }
+      }
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  assemble_mass(const StepPoints<dim>    &points,
+                const LatticeWindow<dim> &window,
+                const ActiveNodes<dim>   &nodes,
+                NodeMatrix<dim>          &mass)
+  {
+    mass.set_zero();
+    for (const auto &batch : points.batches)
+      dispatch_pattern<dim>(batch.pattern,
+                            AssembleMass<dim>{points, window, nodes, mass, &batch});
+  }
+
+
+
+  template <int dim>
+  void
+  blend_mass(const double epsilon, NodeMatrix<dim> &mass, const unsigned int n_rows)
+  {
+    if (epsilon == 0.)
+      return;
+    LatticeIndex<dim>  zero{};
+    const unsigned int diagonal = mass.slot(zero);
+    for (unsigned int i = 0; i < n_rows; ++i)
+      {
+        double *row    = mass.row(i, 0);
+        double  lumped = 0.;
+        for (unsigned int s = 0; s < mass.n_slots(); ++s)
+          {
+            lumped += row[s];
+            row[s] *= 1. - epsilon;
+          }
+        row[diagonal] += epsilon * lumped;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  add_to_nodes(const StepPoints<dim>                     &points,
+               const LatticeWindow<dim>                  &window,
+               const ActiveNodes<dim>                    &nodes,
+               const std::vector<double>                 &weights,
+               const std::vector<dealii::Tensor<1, dim>> &values,
+               std::vector<double>                       &sums)
+  {
+    for_each_point(
+      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
+        const dealii::Tensor<1, dim> weighted = weights[slot] * values[slot];
+        for (std::size_t A = 0; A < local.size(); ++A)
+          for (int d = 0; d < dim; ++d)
+            sums[std::size_t(local[A]) * dim + d] += basis.value[A] * weighted[d];
+      });
+  }
+
+
+
+  template <int dim>
+  void
+  add_scalars_to_nodes(const StepPoints<dim>     &points,
+                       const LatticeWindow<dim>  &window,
+                       const ActiveNodes<dim>    &nodes,
+                       const std::vector<double> &values,
+                       const unsigned int         n_values,
+                       std::vector<double>       &sums)
+  {
+    for_each_point(
+      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
+        for (std::size_t A = 0; A < local.size(); ++A)
+          for (unsigned int k = 0; k < n_values; ++k)
+            sums[std::size_t(local[A]) * n_values + k] +=
+              basis.value[A] * values[std::size_t(slot) * n_values + k];
+      });
+  }
+
+
+
+  template <int dim>
+  void
+  interpolate_to_points(const StepPoints<dim>               &points,
+                        const LatticeWindow<dim>            &window,
+                        const ActiveNodes<dim>              &nodes,
+                        const std::vector<double>           &nodal,
+                        std::vector<dealii::Tensor<1, dim>> &at_points)
+  {
+    at_points.resize(points.size());
+    for_each_point(
+      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
+        dealii::Tensor<1, dim> value;
+        for (std::size_t A = 0; A < local.size(); ++A)
+          for (int d = 0; d < dim; ++d)
+            value[d] += basis.value[A] * nodal[std::size_t(local[A]) * dim + d];
+        at_points[slot] = value;
+      });
+  }
+
+
+
+  template <int dim>
+  void
+  gradient_at_point(const StepPoints<dim>     &points,
+                    const LatticeWindow<dim>  &window,
+                    const ActiveNodes<dim>    &nodes,
+                    const std::vector<double> &nodal,
+                    const unsigned int         slot,
+                    double (&gradient)[dim][dim])
+  {
+    const Stencil<dim>                   &stencil = points.stencil[slot];
+    const typename StepPoints<dim>::Batch one{slot, slot + 1, 0, stencil.pattern};
+    const auto visit = [&](const unsigned int, const auto &local, const auto &basis) {
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          {
+            gradient[i][j] = 0.;
+            for (std::size_t A = 0; A < local.size(); ++A)
+              gradient[i][j] += nodal[std::size_t(local[A]) * dim + i] * basis.gradient[j][A];
+          }
+    };
+    dispatch_pattern<dim>(stencil.pattern,
+                          ForEachPoint<dim, decltype(visit)>{points, window, nodes, visit, &one});
+  }
+
+
+
+  template <int dim>
+  void
+  multiply(const NodeMatrix<dim>     &matrix,
+           const LatticeWindow<dim>  &window,
+           const ActiveNodes<dim>    &nodes,
+           const unsigned int         n_components,
+           const std::vector<double> &x,
+           std::vector<double>       &y)
+  {
+    // a matrix with one component acts alike on all components of x
+    const std::vector<int> strides = matrix.slot_strides(window);
+    std::fill(y.begin(), y.end(), 0.);
+    const int n_window = static_cast<int>(window.n_nodes_total());
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      {
+        const double *row = matrix.row(i, 0);
+        for (unsigned int s = 0; s < matrix.n_slots(); ++s)
+          if (row[s] != 0.)
+            {
+              const int neighbour = static_cast<int>(nodes.window_node(i)) + strides[s];
+              if (neighbour < 0 || neighbour >= n_window)
+                continue;
+              const int j = nodes.local(neighbour);
+              if (j < 0)
+                continue;
+              for (unsigned int c = 0; c < n_components; ++c)
+                y[std::size_t(i) * n_components + c] +=
+                  row[s] * x[std::size_t(j) * n_components + c];
+            }
+      }
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                                                   \
+  template void assemble_mass(const StepPoints<dim> &,                                           \
+                              const LatticeWindow<dim> &,                                        \
+                              const ActiveNodes<dim> &,                                          \
+                              NodeMatrix<dim> &);                                                \
+  template void blend_mass(const double, NodeMatrix<dim> &, const unsigned int);                 \
+  template void add_to_nodes(const StepPoints<dim> &,                                            \
+                             const LatticeWindow<dim> &,                                         \
+                             const ActiveNodes<dim> &,                                           \
+                             const std::vector<double> &,                                        \
+                             const std::vector<dealii::Tensor<1, dim>> &,                        \
+                             std::vector<double> &);                                             \
+  template void add_scalars_to_nodes(const StepPoints<dim> &,                                    \
+                                     const LatticeWindow<dim> &,                                 \
+                                     const ActiveNodes<dim> &,                                   \
+                                     const std::vector<double> &,                                \
+                                     const unsigned int,                                         \
+                                     std::vector<double> &);                                     \
+  template void interpolate_to_points(const StepPoints<dim> &,                                   \
+                                      const LatticeWindow<dim> &,                                \
+                                      const ActiveNodes<dim> &,                                  \
+                                      const std::vector<double> &,                               \
+                                      std::vector<dealii::Tensor<1, dim>> &);                    \
+  template void gradient_at_point(const StepPoints<dim> &,                                       \
+                                  const LatticeWindow<dim> &,                                    \
+                                  const ActiveNodes<dim> &,                                      \
+                                  const std::vector<double> &,                                   \
+                                  const unsigned int,                                            \
+                                  double (&)[dim][dim]);                                         \
+  template void multiply(const NodeMatrix<dim> &,                                                \
+                         const LatticeWindow<dim> &,                                             \
+                         const ActiveNodes<dim> &,                                               \
+                         const unsigned int,                                                     \
+                         const std::vector<double> &,                                            \
+                         std::vector<double> &);
+  KEDGE_INSTANTIATE(2)
+  KEDGE_INSTANTIATE(3)
+} // namespace kedge

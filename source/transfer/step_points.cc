@@ -1,0 +1,167 @@
+#include <kedge/transfer/step_points.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Stable counting sort of the numbers in @p order by their @p key in [0, n_keys). */
+    void
+    sort_by_key(const std::vector<unsigned int> &key,
+                const unsigned int               n_keys,
+                std::vector<unsigned int>       &order)
+    {
+      std::vector<unsigned int> begin(n_keys + 1, 0);
+      for (const unsigned int k : key)
+        ++begin[k + 1];
+      for (unsigned int k = 0; k < n_keys; ++k)
+        begin[k + 1] += begin[k];
+      std::vector<unsigned int> sorted(order.size());
+      for (const unsigned int i : order)
+        sorted[begin[key[i]]++] = i;
+      order.swap(sorted);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StressState<dim>
+  make_stress_state(const PointState<dim> &state)
+  {
+    StressState<dim> result;
+    for (int i = 0; i < dim; ++i)
+      {
+        double square = 0.;
+        for (int k = 0; k < dim; ++k)
+          {
+            result.elastic_frame[k][i] = state.elastic_frame[k][i];
+            square += state.elastic_frame[k][i] * state.elastic_frame[k][i];
+          }
+        result.squared_stretch[i] = square;
+        result.strain[i]          = 0.5 * std::log(square);
+      }
+    if (dim == 2)
+      result.strain[2] = std::log(state.out_of_plane_elastic_stretch);
+    for (int s = 0; s < n_symmetric<dim>; ++s)
+      {
+        const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
+        double    sum = 0.;
+        for (int k = 0; k < dim; ++k)
+          sum += state.deformation_gradient[i][k] * state.deformation_gradient[j][k];
+        result.left_cauchy_green[s] = sum;
+        result.kirchhoff_stress[s]  = state.kirchhoff_stress[i][j];
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::find_order(const BackgroundGrid<dim>       &grid,
+                              const std::vector<unsigned int> &cell,
+                              const std::vector<unsigned int> &body,
+                              const std::vector<Stencil<dim>> &stencils,
+                              const unsigned int               n_bodies)
+  {
+    const unsigned int n = cell.size();
+    local_number.resize(n);
+    for (unsigned int i = 0; i < n; ++i)
+      local_number[i] = i;
+
+    std::vector<unsigned int> key = cell;
+    sort_by_key(key, grid.window().n_cells_total(), local_number);
+    for (unsigned int i = 0; i < n; ++i)
+      key[i] = stencils[i].first_node;
+    sort_by_key(key, grid.window().n_nodes_total(), local_number);
+    for (unsigned int i = 0; i < n; ++i)
+      key[i] = body[i] * n_stencil_patterns<dim> + stencils[i].pattern;
+    sort_by_key(key, n_bodies * n_stencil_patterns<dim>, local_number);
+
+    batches.clear();
+    for (unsigned int slot = 0; slot < n; ++slot)
+      {
+        const unsigned int i = local_number[slot];
+        if (batches.empty() || batches.back().body != body[i] ||
+            batches.back().pattern != stencils[i].pattern)
+          batches.push_back({slot, slot, body[i], stencils[i].pattern});
+        batches.back().end = slot + 1;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
+                          const MaterialPoints<dim>    &points,
+                          const std::vector<BasisKind> &basis_of_body)
+  {
+    const unsigned int                   n = points.n_local();
+    std::vector<unsigned int>            cell(n), body(n);
+    std::vector<Stencil<dim>>            stencils(n);
+    std::vector<dealii::Point<dim>>      locations(n);
+    std::vector<const PointState<dim> *> states(n);
+    points.for_each([&](const unsigned int i,
+                        const std::uint64_t,
+                        const dealii::Point<dim> &x,
+                        const PointState<dim>    &state) {
+      states[i]    = &state;
+      locations[i] = x;
+      body[i]      = static_cast<unsigned int>(state.body);
+      cell[i]      = grid.window().cell_number(grid.lattice().cell_of(x));
+      stencils[i]  = make_stencil(
+        basis_of_body[body[i]], grid.lattice(), grid.window(), x, state.half_lengths);
+    });
+    find_order(grid, cell, body, stencils, basis_of_body.size());
+
+    stencil.resize(n);
+    mass.resize(n);
+    volume.resize(n);
+    location.resize(n);
+    velocity.resize(n);
+    acceleration.resize(n);
+    stress_state.resize(n);
+    for (unsigned int slot = 0; slot < n; ++slot)
+      {
+        const unsigned int     i     = local_number[slot];
+        const PointState<dim> &state = *states[i];
+        stencil[slot]                = stencils[i];
+        mass[slot]                   = state.mass;
+        volume[slot]                 = state.reference_volume;
+        location[slot]               = locations[i];
+        velocity[slot]               = state.velocity;
+        acceleration[slot]           = state.acceleration;
+        stress_state[slot]           = make_stress_state(state);
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned char>
+  StepPoints<dim>::reached_nodes(const LatticeWindow<dim> &window) const
+  {
+    std::vector<unsigned char> reached(window.n_nodes_total(), 0);
+    const auto                 strides = window.node_strides();
+    unsigned int               last_node = static_cast<unsigned int>(-1), last_pattern = 0;
+    for (const Stencil<dim> &s : stencil)
+      {
+        if (s.first_node == last_node && s.pattern == last_pattern)
+          continue;
+        last_node    = s.first_node;
+        last_pattern = s.pattern;
+        for (int k = 0; k < (dim == 3 ? stencil_width(s.pattern, 2) : 1); ++k)
+          for (int j = 0; j < stencil_width(s.pattern, 1); ++j)
+            for (int i = 0; i < stencil_width(s.pattern, 0); ++i)
+              reached[s.first_node + i + j * strides[1] + (dim == 3 ? k * strides[dim - 1] : 0)] = 1;
+      }
+    return reached;
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                                  \
+  template struct StepPoints<dim>;                                              \
+  template StressState<dim> make_stress_state<dim>(const PointState<dim> &);
+  KEDGE_INSTANTIATE(2)
+  KEDGE_INSTANTIATE(3)
+} // namespace kedge
