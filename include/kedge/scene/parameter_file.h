@@ -97,7 +97,7 @@ namespace kedge
 
     std::string                   file_name;
     std::vector<ParameterEntry>   entries;  ///< in order, each section and name once
-    std::vector<ParameterSection> sections; ///< in order of appearance, each path once
+    std::vector<ParameterSection> sections; ///< each opening, in order
 
     template <class Archive>
     void
