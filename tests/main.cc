@@ -1,0 +1,13 @@
+// The start of kedge_unit_tests: MPI around GoogleTest. Under mpirun every
+// rank runs the same tests; a failure on any rank fails the run.
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+int
+main(int argc, char **argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  return RUN_ALL_TESTS();
+}
