@@ -1,7 +1,8 @@
 # The functions that register tests with CTest.
 
 # Tests run side by side, so that each keeps to one thread.
-set(kedge_test_environment OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1)
+set(kedge_test_environment OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+  PYTHONDONTWRITEBYTECODE=1)
 find_program(KEDGE_MPIRUN NAMES mpirun mpiexec REQUIRED)
 
 # kedge_add_test(name COMMAND ... [LABELS ...] [RANKS n] [TIMEOUT s])
