@@ -15,6 +15,10 @@ namespace kedge
   void
   replace_file(const std::filesystem::path &file, const std::string &content);
 
+  /** Writes a file from its beginning. Throws UserError with the system's reason. */
+  void
+  write_file(const std::filesystem::path &file, const std::string &content);
+
   /** Forces a file or a folder to the disk. Throws UserError with the system's reason. */
   void
   flush_to_disk(const std::filesystem::path &file_or_folder);

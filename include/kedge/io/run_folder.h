@@ -71,6 +71,7 @@ namespace kedge
     MPI_Comm              mpi_communicator;
     bool                  root;
     std::unique_ptr<Log>  tee;
+    mutable std::ostream  silence; ///< has no buffer: drops what it gets
   };
 } // namespace kedge
 
