@@ -239,28 +239,6 @@ namespace kedge
                 }}};
     }
 
-    /** Suffixes of the 3D components; an entry with z is constant in 2D but for the zz of stresses.
-     */
-    const std::vector<std::string> &
-    suffixes(const FieldShape shape)
-    {
-      static const std::vector<std::string>
-        scalar = {""},
-        vector = {"x", "y", "z"}, symmetric = {"xx", "yy", "zz", "xy", "yz", "xz"},
-        tensor = {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
-      switch (shape)
-        {
-          case FieldShape::vector:
-            return vector;
-          case FieldShape::symmetric_tensor:
-            return symmetric;
-          case FieldShape::tensor:
-            return tensor;
-          default:
-            return scalar;
-        }
-    }
-
     [[noreturn]] void
     unknown(const std::string &name, const std::vector<std::string> &valid)
     {
@@ -274,10 +252,32 @@ namespace kedge
 
 
 
+  const std::vector<std::string> &
+  value_names(const FieldShape shape)
+  {
+    static const std::vector<std::string> scalar = {""}, vector = {"x", "y", "z"},
+                                          symmetric = {"xx", "yy", "zz", "xy", "yz", "xz"},
+                                          tensor =
+                                            {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
+    switch (shape)
+      {
+        case FieldShape::vector:
+          return vector;
+        case FieldShape::symmetric_tensor:
+          return symmetric;
+        case FieldShape::tensor:
+          return tensor;
+        default:
+          return scalar;
+      }
+  }
+
+
+
   unsigned int
   n_values(const FieldShape shape)
   {
-    return suffixes(shape).size();
+    return value_names(shape).size();
   }
 
 
@@ -289,7 +289,7 @@ namespace kedge
     std::vector<Component> result;
     for (unsigned int i = 0; i < n_values(shape); ++i)
       {
-        const std::string &suffix = suffixes(shape)[i];
+        const std::string &suffix = value_names(shape)[i];
         const bool         stress = shape == FieldShape::symmetric_tensor && suffix == "zz";
         if (dim == 3 || suffix.find('z') == std::string::npos || stress)
           result.push_back({suffix, i});

@@ -42,6 +42,7 @@ namespace kedge
 
   private:
     const RunFolder &folder;
+    unsigned int     n_done;
     TimeSeries       pvd;
   };
 } // namespace kedge

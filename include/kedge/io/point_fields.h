@@ -21,6 +21,10 @@ namespace kedge
   unsigned int
   n_values(const FieldShape shape);
 
+  /** "" of a scalar, x y z, xx yy zz xy yz xz, or xx xy .. zz. */
+  const std::vector<std::string> &
+  value_names(const FieldShape shape);
+
   /**
    * A quantity of material points under a name. Its values are always those
    * of three dimensions, plane strain included: the third component of a

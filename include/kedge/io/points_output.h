@@ -6,6 +6,7 @@
 #include <kedge/io/run_folder.h>
 #include <kedge/io/time_series.h>
 
+#include <optional>
 #include <vector>
 
 namespace kedge
@@ -38,21 +39,15 @@ namespace kedge
 
   private:
     void
-    write_vtu(const double                         time,
-              const std::string                   &stem,
-              const std::vector<PointRecord<dim>> &local_points);
+    write_vtu(const double time, const std::vector<PointRecord<dim>> &local_points);
     void
-    write_hdf5(const double                         time,
-               const std::string                   &stem,
-               const std::vector<PointRecord<dim>> &local_points);
+    write_hdf5(const double time, const std::vector<PointRecord<dim>> &local_points);
 
     const RunFolder                     &folder;
     std::vector<const PointField<dim> *> fields;
-    bool                                 vtu;
-    bool                                 hdf5;
     unsigned int                         n_done;
-    TimeSeries                           pvd;
-    TimeSeries                           xdmf;
+    std::optional<TimeSeries>            pvd;
+    std::optional<TimeSeries>            xdmf;
   };
 } // namespace kedge
 

@@ -21,7 +21,8 @@ namespace kedge
       xdmf ///< an entry is a Grid element without its Time
     };
 
-    /** Keeps the first @p n_kept entries of the file if there is one. Collective. */
+    /** Keeps the first @p n_kept entries of the file if there is one, drops the others. Collective.
+     */
     TimeSeries(const RunFolder   &folder,
                const std::string &name,
                const Format       format,
@@ -30,9 +31,6 @@ namespace kedge
     /** Adds an entry and rewrites the file. Collective. */
     void
     add(const double time, const std::string &entry);
-
-    unsigned int
-    size() const;
 
   private:
     struct Entry
