@@ -157,31 +157,8 @@ namespace kedge
   void
   PointsOutput<dim>::write_vtu(const double time, const std::vector<PointRecord<dim>> &local_points)
   {
-    const MPI_Comm     communicator = folder.communicator();
-    const unsigned int n_ranks      = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
-    const auto         piece_name   = [&](const unsigned int r) {
-      return n_ranks == 1 ? stem(n_done) + ".vtu"
-                                    : stem(n_done) + '.' + dealii::Utilities::int_to_string(r, 4) + ".vtu";
-    };
-
-    const VtuFile piece = make_piece(fields, local_points);
-    run_on_all(communicator, [&]() {
-      piece.write(folder.path("points/" + piece_name(rank)), time);
-    });
-
-    std::string name = piece_name(0);
-    if (n_ranks > 1)
-      {
-        name = stem(n_done) + ".pvtu";
-        std::vector<std::string> pieces;
-        for (unsigned int r = 0; r < n_ranks; ++r)
-          pieces.push_back(piece_name(r));
-        run_on_root(communicator, [&]() {
-          write_file(folder.path("points/" + name), piece.parallel_index(pieces));
-        });
-      }
-    pvd->add(time, "points/" + name);
+    pvd->add(time,
+             write_pieces(folder, "points", stem(n_done), make_piece(fields, local_points), time));
   }
 
 

@@ -1,8 +1,11 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/io/collective.h>
 #include <kedge/io/files.h>
 #include <kedge/io/vtu_file.h>
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <zlib.h>
@@ -175,5 +178,37 @@ namespace kedge
     for (const std::string &piece : pieces)
       text += "<Piece Source=\"" + piece + "\"/>\n";
     return text + "</PUnstructuredGrid>\n</VTKFile>\n";
+  }
+
+
+
+  std::string
+  write_pieces(const RunFolder   &folder,
+               const std::string &subfolder,
+               const std::string &stem,
+               const VtuFile     &piece,
+               const double       time)
+  {
+    const MPI_Comm     communicator = folder.communicator();
+    const unsigned int n_ranks      = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const auto         file_name    = [&](const unsigned int r) {
+      return n_ranks == 1 ? stem + ".vtu"
+                                     : stem + '.' + dealii::Utilities::int_to_string(r, 4) + ".vtu";
+    };
+    const std::filesystem::path location = folder.path(subfolder);
+    run_on_all(communicator, [&]() {
+      piece.write(location / file_name(rank), time);
+    });
+    if (n_ranks == 1)
+      return subfolder + '/' + file_name(0);
+
+    std::vector<std::string> names;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      names.push_back(file_name(r));
+    run_on_root(communicator, [&]() {
+      write_file(location / (stem + ".pvtu"), piece.parallel_index(names));
+    });
+    return subfolder + '/' + stem + ".pvtu";
   }
 } // namespace kedge

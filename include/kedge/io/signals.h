@@ -9,8 +9,8 @@ namespace kedge
 {
   /**
    * While it lives, SIGINT and SIGTERM only set a flag, so that the time loop
-   * can write a checkpoint and end. The same signal once more, a second or
-   * more after the first, ends the process at once. One at a time.
+   * can write a checkpoint and end. Another one, more than a second after the
+   * first, ends the process at once. One object at a time.
    */
   class StopSignals
   {

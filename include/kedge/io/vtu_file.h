@@ -1,6 +1,8 @@
 #ifndef kedge_io_vtu_file_h
 #define kedge_io_vtu_file_h
 
+#include <kedge/io/run_folder.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -66,6 +68,18 @@ namespace kedge
     std::vector<Block> nodes, cells, fields;
     std::string        appended;
   };
+
+  /**
+   * Writes @p piece of each rank into a folder inside the run's: STEM.vtu, on
+   * several ranks STEM.RRRR.vtu and STEM.pvtu. Returns what the index of times
+   * has to name. Collective. Throws UserError if a file cannot be written.
+   */
+  std::string
+  write_pieces(const RunFolder   &folder,
+               const std::string &subfolder,
+               const std::string &stem,
+               const VtuFile     &piece,
+               const double       time);
 } // namespace kedge
 
 #endif
