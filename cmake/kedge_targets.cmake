@@ -1,0 +1,30 @@
+# What every target of kedge itself is compiled with.
+
+# deal.II, warnings as errors, and the flags of the kernels. deal.II's own
+# flags come first, so that ours (-O3, less debug information) win.
+function(kedge_set_up_target target)
+  deal_ii_setup_target(${target})
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O3 -g1)
+  endif()
+  if(KEDGE_NATIVE)
+    target_compile_options(${target} PRIVATE -march=native)
+  endif()
+endfunction()
+
+# Writes kedge/base/version.h at configure time and the revision, which
+# changes with every commit, into a source file of its own at build time.
+# Sets `result` to the files to add to the library.
+function(kedge_generate_version result)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/version.h.in
+    ${PROJECT_BINARY_DIR}/include/kedge/base/version.h @ONLY)
+  set(revision_source ${PROJECT_BINARY_DIR}/source/base/revision.cc)
+  add_custom_target(kedge_revision
+    COMMAND ${CMAKE_COMMAND} -D source_folder=${PROJECT_SOURCE_DIR}
+      -D output=${revision_source} -P ${PROJECT_SOURCE_DIR}/cmake/write_revision.cmake
+    BYPRODUCTS ${revision_source}
+    COMMENT "")
+  set_source_files_properties(${revision_source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set(${result} ${revision_source} PARENT_SCOPE)
+endfunction()

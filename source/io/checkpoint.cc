@@ -1,0 +1,288 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/io/checkpoint.h>
+#include <kedge/io/checkpoint_format.h>
+#include <kedge/io/collective.h>
+#include <kedge/io/files.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+namespace kedge
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    std::string
+    state_name(const std::uint64_t number)
+    {
+      return "state-" + dealii::Utilities::to_string(number, 6);
+    }
+
+    std::string
+    unfinished_name(const std::uint64_t number)
+    {
+      return "unfinished-" + dealii::Utilities::to_string(number, 6);
+    }
+
+    std::string
+    rank_file(const unsigned int rank)
+    {
+      return "rank-" + dealii::Utilities::to_string(rank, 4) + ".bin";
+    }
+
+    /** The number in `state-NNNNNN`; none for other names. */
+    std::optional<std::uint64_t>
+    number_of(const std::string &name, const std::string &prefix)
+    {
+      if (name.compare(0, prefix.size(), prefix) != 0)
+        return {};
+      std::uint64_t number = 0;
+      const char   *end    = name.data() + name.size();
+      const auto    result = std::from_chars(name.data() + prefix.size(), end, number);
+      return result.ptr == end && result.ec == std::errc() ? std::optional(number) : std::nullopt;
+    }
+
+    /** Numbers of the states that stand in the folder, newest first. */
+    std::vector<std::uint64_t>
+    numbers_in(const fs::path &location, const std::string &prefix)
+    {
+      std::vector<std::uint64_t> numbers;
+      std::error_code            none;
+      for (const fs::directory_entry &entry : fs::directory_iterator(location, none))
+        if (const auto number = number_of(entry.path().filename().string(), prefix))
+          numbers.push_back(*number);
+      std::sort(numbers.rbegin(), numbers.rend());
+      return numbers;
+    }
+
+    /** Removes the files of a state and its folder; leaves what is not kedge's. */
+    void
+    remove_state(const fs::path &state)
+    {
+      std::error_code       ignored;
+      std::vector<fs::path> files = {state / "manifest.txt"};
+      for (const fs::directory_entry &entry : fs::directory_iterator(state, ignored))
+        {
+          const std::string name = entry.path().filename().string();
+          if (name.compare(0, 5, "rank-") == 0 && entry.path().extension() == ".bin")
+            files.push_back(entry.path());
+        }
+      for (const fs::path &file : files) // the manifest first: what lacks it is not whole
+        fs::remove(file, ignored);
+      fs::remove(state, ignored);
+    }
+
+    const char *const remedy_afresh = " Start the run afresh without --resume.";
+
+    /** Throws UserError if the checkpoint is one of another run. */
+    void
+    check_manifest(const CheckpointManifest &manifest,
+                   const fs::path           &state,
+                   const unsigned int        dim,
+                   const unsigned int        n_state_values,
+                   const std::string        &scene_fingerprint,
+                   const unsigned int        n_ranks)
+    {
+      const std::string begin = "The checkpoint '" + state.string() + "' ";
+      if (manifest.dim != dim)
+        throw UserError(begin + "is of a run in " + std::to_string(manifest.dim) +
+                        "D, the scene is in " + std::to_string(dim) + "D: it belongs to another " +
+                        "scene. Name the right output folder, or start afresh without --resume.");
+      if (manifest.n_state_values != n_state_values)
+        throw UserError(begin + "was written by another version of kedge, whose material points " +
+                        "hold other values. Resume with that version, or start afresh without " +
+                        "--resume.");
+      if (manifest.scene_fingerprint != scene_fingerprint)
+        throw UserError(begin + "belongs to another scene (fingerprint " +
+                        manifest.scene_fingerprint + ", this scene has " + scene_fingerprint +
+                        "). Resume with the scene and the settings with which the run began, or " +
+                        "start afresh without --resume.");
+      if (manifest.files.size() != n_ranks)
+        throw UserError(begin + "was written by " + std::to_string(manifest.files.size()) +
+                        " MPI ranks, this run has " + std::to_string(n_ranks) +
+                        ". Resume it with 'mpirun -np " + std::to_string(manifest.files.size()) +
+                        "'.");
+    }
+
+    /** Why the content is not what the manifest says; empty if it is. */
+    std::string
+    damage_of(const std::string &content, const CheckpointManifest::File &file)
+    {
+      if (content.size() != file.n_bytes)
+        return "has " + std::to_string(content.size()) + " bytes instead of " +
+               std::to_string(file.n_bytes);
+      return crc32_of(content) == file.crc ? "" : "has a wrong checksum";
+    }
+
+    /** The first text of all ranks that is not empty. Collective. */
+    std::string
+    first_text(const std::string &text, const MPI_Comm communicator)
+    {
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+      const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+      const unsigned int first =
+        dealii::Utilities::MPI::min(text.empty() ? n_ranks : rank, communicator);
+      return first == n_ranks ? "" : dealii::Utilities::MPI::broadcast(communicator, text, first);
+    }
+
+    /** Reads this rank's part into @p data. Returns the damage, throws UserError for a foreign
+     * state. */
+    template <int dim>
+    std::string
+    read_state(const fs::path      &state,
+               const std::string   &scene_fingerprint,
+               const MPI_Comm       communicator,
+               CheckpointData<dim> &data)
+    {
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+      const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+      CheckpointManifest manifest;
+      try
+        {
+          manifest = CheckpointManifest::parse(read_file(state / "manifest.txt"));
+        }
+      catch (const std::runtime_error &error)
+        {
+          return error.what();
+        }
+      check_manifest(manifest, state, dim, n_state_values<dim>, scene_fingerprint, n_ranks);
+      try
+        {
+          const std::string content = read_file(state / rank_file(rank));
+          const std::string damage  = damage_of(content, manifest.files[rank]);
+          if (!damage.empty())
+            return rank_file(rank) + ' ' + damage;
+          data = unpack_checkpoint<dim>(content);
+        }
+      catch (const std::runtime_error &error)
+        {
+          return error.what();
+        }
+      data.scene_fingerprint = scene_fingerprint;
+      data.n_ranks           = n_ranks;
+      return "";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  CheckpointStore<dim>::CheckpointStore(const RunFolder &folder)
+    : folder(folder)
+    , location(folder.make_subfolder("checkpoint"))
+  {
+    const std::vector<std::uint64_t> numbers = numbers_in(location, "state-");
+    if (!numbers.empty())
+      next = numbers.front() + 1;
+    next = dealii::Utilities::MPI::max(next, folder.communicator());
+  }
+
+
+
+  template <int dim>
+  void
+  CheckpointStore<dim>::write(const CheckpointData<dim> &data)
+  {
+    const MPI_Comm     communicator = folder.communicator();
+    const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const fs::path     unfinished   = location / unfinished_name(next);
+
+    run_on_root(communicator, [&]() {
+      for (const std::uint64_t number : numbers_in(location, "unfinished-"))
+        remove_state(location / unfinished_name(number));
+      std::error_code error;
+      fs::create_directories(unfinished, error);
+      if (error)
+        throw UserError("Cannot make '" + unfinished.string() + "': " + error.message() + '.');
+    });
+
+    CheckpointManifest::File file;
+    run_on_all(communicator, [&]() {
+      const std::string content = pack_checkpoint(data);
+      file                      = {content.size(), crc32_of(content)};
+      write_file(unfinished / rank_file(rank), content);
+      flush_to_disk(unfinished / rank_file(rank));
+    });
+    const auto files = dealii::Utilities::MPI::gather(communicator, file);
+
+    run_on_root(communicator, [&]() {
+      const CheckpointManifest manifest{dim, n_state_values<dim>, data.scene_fingerprint, files};
+      replace_file(unfinished / "manifest.txt", manifest.text());
+      std::error_code error;
+      fs::rename(unfinished, location / state_name(next), error);
+      if (error)
+        throw UserError("Cannot rename '" + unfinished.string() + "': " + error.message() + '.');
+      flush_to_disk(location);
+      remove_old(next);
+    });
+    last_good = next++;
+  }
+
+
+
+  template <int dim>
+  void
+  CheckpointStore<dim>::remove_old(const std::uint64_t newest) const
+  {
+    for (const std::uint64_t number : numbers_in(location, "state-"))
+      if (number != newest && number != last_good)
+        remove_state(location / state_name(number));
+  }
+
+
+
+  template <int dim>
+  CheckpointData<dim>
+  CheckpointStore<dim>::read_latest(const std::string &scene_fingerprint)
+  {
+    const MPI_Comm                   communicator = folder.communicator();
+    const std::vector<std::uint64_t> numbers =
+      dealii::Utilities::MPI::broadcast(communicator,
+                                        folder.is_root() ? numbers_in(location, "state-")
+                                                         : std::vector<std::uint64_t>());
+    if (numbers.empty())
+      throw UserError("There is no checkpoint in '" + location.string() +
+                      "' to resume from: the run ended before its first one." + remedy_afresh);
+
+    std::string damages;
+    for (const std::uint64_t number : numbers)
+      {
+        const fs::path      state = location / state_name(number);
+        CheckpointData<dim> data;
+        std::string         damage;
+        run_on_all(communicator, [&]() {
+          damage = read_state(state, scene_fingerprint, communicator, data);
+        });
+        damage = first_text(damage, communicator);
+        if (damage.empty())
+          {
+            folder.log() << damages << "Resuming from the checkpoint " << state.string() << '.'
+                         << std::endl;
+            last_good = number;
+            return data;
+          }
+        damages += "The checkpoint " + state.string() + " is damaged: " + damage + ".\n";
+      }
+    throw UserError(damages + "No whole checkpoint is left." + remedy_afresh);
+  }
+
+
+
+  std::string
+  fingerprint(const std::string &scene_text)
+  {
+    std::ostringstream text;
+    text << std::hex << crc32_of(scene_text) << '-' << std::dec << scene_text.size();
+    return text.str();
+  }
+
+
+
+  template class CheckpointStore<2>;
+  template class CheckpointStore<3>;
+} // namespace kedge

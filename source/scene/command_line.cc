@@ -1,0 +1,178 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/base/nearest_name.h>
+#include <kedge/scene/command_line.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <sstream>
+
+namespace kedge
+{
+  namespace
+  {
+    /** One option: its names, how the help explains it, and what it sets. */
+    struct Option
+    {
+      std::string                                             name;       ///< "--output"
+      std::string                                             short_name; ///< "-o" or nothing
+      std::string                                             argument;   ///< "DIR"; empty: a flag
+      std::string                                             help;
+      std::function<void(CommandLine &, const std::string &)> apply;
+    };
+
+    std::function<void(CommandLine &, const std::string &)>
+    raise(bool CommandLine::*flag)
+    {
+      return [flag](CommandLine &command, const std::string &) {
+        command.*flag = true;
+      };
+    }
+
+    void
+    set_threads(CommandLine &command, const std::string &value)
+    {
+      unsigned int n_threads = 0;
+      const auto   end       = value.data() + value.size();
+      const auto   result    = std::from_chars(value.data(), end, n_threads);
+      if (result.ec != std::errc() || result.ptr != end || n_threads < 1)
+        throw UserError("The option --threads needs a whole number of at least 1, not '" + value +
+                        "'.");
+      command.n_threads = n_threads;
+    }
+
+    const std::vector<Option> &
+    options()
+    {
+      static const std::vector<Option> table = {
+        {"--output",
+         "-o",
+         "DIR",
+         "folder for the results (default: output/<scene name>)",
+         [](CommandLine &command, const std::string &value) {
+           command.output = value;
+         }},
+        {"--set",
+         "-s",
+         "\"Section/Name = value\"",
+         "set a parameter; wins over the file; may be repeated",
+         [](CommandLine &command, const std::string &value) {
+           command.settings.push_back(value);
+         }},
+        {"--resume",
+         "",
+         "",
+         "go on from the last good checkpoint in the output folder",
+         raise(&CommandLine::resume)},
+        {"--validate",
+         "",
+         "",
+         "read and build the scene, print its size, run no step",
+         raise(&CommandLine::validate)},
+        {"--strict",
+         "",
+         "",
+         "a failed check of the scene makes the exit code 2",
+         raise(&CommandLine::strict)},
+        {"--threads", "", "N", "number of threads", set_threads},
+        {"--print-parameters",
+         "",
+         "",
+         "print every parameter with unit, default and allowed values",
+         raise(&CommandLine::print_parameters)},
+        {"--version",
+         "",
+         "",
+         "print the versions of kedge and of what it is built on",
+         raise(&CommandLine::version)},
+        {"--help", "-h", "", "print this help", raise(&CommandLine::help)}};
+      return table;
+    }
+
+    const Option &
+    find_option(const std::string &name)
+    {
+      std::vector<std::string> names;
+      for (const Option &option : options())
+        {
+          if (name == option.name || name == option.short_name)
+            return option;
+          names.push_back(option.name);
+        }
+      throw UserError("There is no option " + name + ". Did you mean " + nearest_name(name, names) +
+                      "? kedge --help lists all options.");
+    }
+
+    /** Splits "--output=DIR"; a short option and one with a blank stay as they are. */
+    std::pair<std::string, std::optional<std::string>>
+    split_option(const std::string &argument)
+    {
+      const std::size_t equals = argument.find('=');
+      if (argument.rfind("--", 0) != 0 || equals == std::string::npos)
+        return {argument, std::nullopt};
+      return {argument.substr(0, equals), argument.substr(equals + 1)};
+    }
+  } // namespace
+
+
+
+  CommandLine
+  parse_command_line(const int argc, const char *const *argv)
+  {
+    CommandLine                    command;
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+      {
+        if (arguments[i].empty() || arguments[i] == "-" || arguments[i][0] != '-')
+          {
+            if (arguments[i].empty())
+              throw UserError("The name of the scene is empty.");
+            if (!command.scene.empty())
+              throw UserError("Only one scene can be run at a time, not '" + command.scene +
+                              "' and '" + arguments[i] + "'.");
+            command.scene = arguments[i];
+            continue;
+          }
+        auto [name, value]   = split_option(arguments[i]);
+        const Option &option = find_option(name);
+        if (option.argument.empty() && value)
+          throw UserError("The option " + name + " takes no value.");
+        if (!option.argument.empty() && !value)
+          {
+            if (++i == arguments.size())
+              throw UserError("The option " + name + " needs a value: " + name + " " +
+                              option.argument + ".");
+            value = arguments[i];
+          }
+        if (!option.argument.empty() && value->empty())
+          throw UserError("The option " + name + " has an empty value.");
+        option.apply(command, value.value_or(""));
+      }
+    if (command.scene.empty() && !command.help && !command.version && !command.print_parameters)
+      throw UserError("Which scene? Give a parameter file: kedge SCENE.prm; - reads standard "
+                      "input, kedge --help says more.");
+    return command;
+  }
+
+
+
+  std::string
+  help_text()
+  {
+    std::ostringstream out;
+    out << "kedge SCENE.prm [options]\n\n"
+           "Large deformations of solids by the implicit Material Point Method.\n"
+           "A - as SCENE reads standard input.\n\nOptions\n";
+    for (const Option &option : options())
+      out << "  " << (option.short_name.empty() ? "" : option.short_name + ", ") << option.name
+          << (option.argument.empty() ? "" : " ") << option.argument << "\n      " << option.help
+          << '\n';
+    out << "\nExit codes\n"
+           "  0  finished\n"
+           "  1  the scene or an option cannot be used\n"
+           "  2  the numerics: the smallest time step was reached; with --strict, a check failed\n"
+           "  3  stopped by SIGINT or SIGTERM, after writing a checkpoint\n"
+           "  4  an internal error\n";
+    return out.str();
+  }
+} // namespace kedge

@@ -1,0 +1,459 @@
+#include <kedge/scene/declarations.h>
+#include <kedge/scene/value_pattern.h>
+
+#include <utility>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Declares one section after the other. */
+    template <int dim>
+    class SceneDeclarations
+    {
+    public:
+      explicit SceneDeclarations(const std::map<std::string, double> &constants)
+        : allow(constants)
+      {}
+
+      std::vector<SectionDeclaration>
+      all() const
+      {
+        return {top_level(),
+                user_constants(),
+                grid(),
+                materials(),
+                bodies(),
+                node_conditions(),
+                body_force(),
+                point_loads(),
+                tractions(),
+                time(),
+                newton(),
+                linear_solver(),
+                mapping(),
+                output(),
+                probes(),
+                checks()};
+      }
+
+    private:
+      using Range = NumberRange;
+
+      static constexpr std::nullopt_t required = std::nullopt;
+
+      // values that differ in 2D and 3D
+
+      static std::string
+      per_direction(const std::string &value, const std::string &separator)
+      {
+        std::string values = value;
+        for (unsigned int d = 1; d < dim; ++d)
+          values += separator + value;
+        return values;
+      }
+
+      static std::vector<std::string>
+      coordinates(const std::string &letters)
+      {
+        std::vector<std::string> names;
+        for (unsigned int d = 0; d < dim; ++d)
+          names.emplace_back(1, letters[d]);
+        return names;
+      }
+
+      static std::string
+      coordinate_words(const std::string &letters)
+      {
+        return dim == 2
+                 ? letters.substr(0, 1) + ", " + letters.substr(1, 1)
+                 : letters.substr(0, 1) + ", " + letters.substr(1, 1) + ", " + letters.substr(2, 1);
+      }
+
+      // sections
+
+      SectionDeclaration
+      top_level() const
+      {
+        return {"",
+                "A scene of kedge. SI units, tension positive.",
+                SectionKind::plain,
+                {{"Dimension",
+                  required,
+                  allow.one_of({"2", "3"}),
+                  "Space dimension. 2 is plane strain: masses, forces and energies are per metre "
+                  "of thickness."},
+                 {"Title", "", allow.text("any text").or_empty(), "What the scene shows."}}};
+      }
+
+      SectionDeclaration
+      user_constants() const
+      {
+        return {
+          "Constants",
+          "Numbers under names of your own, for use in all expressions and in place of all "
+          "numbers; pi is there already.",
+          SectionKind::free_entries,
+          {{"<name>", required, allow.number(), "Any number, also an expression of others."}}};
+      }
+
+      SectionDeclaration
+      grid() const
+      {
+        return {"Grid",
+                "The box with the background grid, divided into equal cells.",
+                SectionKind::plain,
+                {{"Origin",
+                  per_direction("0", ", "),
+                  allow.vector(),
+                  "Corner with the lowest x, y, z [m]."},
+                 {"Extent", required, allow.vector(Range::positive()), "Lengths of the edges [m]."},
+                 {"Cells", required, allow.counts(false), "Number of cells per direction [-]."}}};
+      }
+
+      SectionDeclaration
+      materials() const
+      {
+        Range poisson;
+        poisson.lower          = -1;
+        poisson.upper          = 0.5;
+        poisson.includes_lower = poisson.includes_upper = false;
+        return {"Materials",
+                "Constitutive laws; bodies name the one that they are made of.",
+                SectionKind::named,
+                {{"Model",
+                  "hencky",
+                  allow.one_of({"hencky"}),
+                  "hencky: Kirchhoff stress linear in the logarithmic strain."},
+                 {"Density",
+                  required,
+                  allow.number(Range::positive()),
+                  "Mass per volume of the undeformed body [kg/m^3]."},
+                 {"Young's modulus", required, allow.number(Range::positive()), "E [Pa]."},
+                 {"Poisson's ratio", required, allow.number(poisson), "nu [-]."}}};
+      }
+
+      SectionDeclaration
+      bodies() const
+      {
+        return {
+          "Bodies",
+          "What the material points make up.",
+          SectionKind::named,
+          {{"Geometry",
+            required,
+            allow.geometry(),
+            "The region that the body fills at the start [m]."},
+           {"Material",
+            required,
+            allow.text("the name of a section of Materials"),
+            "What it is made of."},
+           {"Points per cell",
+            "2",
+            allow.counts(true),
+            "Material points per grid cell and direction [-]."},
+           {"Basis",
+            "gimp",
+            allow.one_of({"linear", "gimp"}),
+            "linear: points without extent. gimp: points with a domain, smoother."},
+           {"Initial velocity",
+            per_direction("0", "; "),
+            allow.expressions(coordinates("xyz"), coordinate_words("xyz")),
+            "At the start [m/s]."},
+           {"Body force", "true", allow.truth(), "Whether the section Body force acts on it."}}};
+      }
+
+      SectionDeclaration
+      node_conditions() const
+      {
+        SectionDeclaration section = {
+          "Node conditions",
+          "What moves the nodes of the grid. Either Side or Where says which.",
+          SectionKind::named,
+          {{"Side", "", allow.side().or_empty(), "All nodes on this side of the grid."},
+           {"Where",
+            "",
+            allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
+            "All nodes where this is true, for example abs(x) < 1e-6 && y > 2."}}};
+        for (const std::string &coordinate : coordinates("xyz"))
+          section.entries.push_back({"Component " + coordinate,
+                                     "free",
+                                     allow.component_condition(),
+                                     "Motion in direction " + coordinate + "."});
+        return section;
+      }
+
+      SectionDeclaration
+      body_force() const
+      {
+        return {"Body force",
+                "Acts on every body that does not say otherwise.",
+                SectionKind::plain,
+                {{"Acceleration",
+                  per_direction("0", "; "),
+                  allow.expressions({"t"}, "t"),
+                  "Force per mass [m/s^2], such as gravity."}}};
+      }
+
+      SectionDeclaration
+      point_loads() const
+      {
+        return {
+          "Point loads",
+          "Dead forces on the material points nearest to a place.",
+          SectionKind::named,
+          {{"Body", required, allow.text("the name of a section of Bodies"), "Whose points."},
+           {"Place", required, allow.vector(), "Place in the initial configuration [m]."},
+           {"Points", "1", allow.whole_number(1), "How many points share the force equally [-]."},
+           {"Force", required, allow.expressions({"t"}, "t"), "In all [N; N/m in 2D]."}}};
+      }
+
+      SectionDeclaration
+      tractions() const
+      {
+        return {"Tractions",
+                "Dead loads on the outer faces of a body that look to one side.",
+                SectionKind::named,
+                {{"Body", required, allow.text("the name of a section of Bodies"), "Whose faces."},
+                 {"Side", required, allow.side(), "To where the faces look."},
+                 {"Where",
+                  "",
+                  allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
+                  "Only material points where this is true at the start; empty: all."},
+                 {"Traction",
+                  required,
+                  allow.expressions({"t"}, "t"),
+                  "Force per area of the undeformed face [Pa]."}}};
+      }
+
+      SectionDeclaration
+      time() const
+      {
+        Range factor   = Range::positive();
+        factor.upper   = 1;
+        Range fraction = Range::not_negative();
+        fraction.upper = 1;
+        Range beta     = Range::positive();
+        beta.upper     = 0.5;
+        return {
+          "Time",
+          "From when to when, in which steps, by which scheme.",
+          SectionKind::plain,
+          {{"Scheme",
+            "clc-midpoint",
+            allow.one_of({"quasi-static",
+                          "clc-midpoint",
+                          "midpoint",
+                          "trapezoidal",
+                          "newmark",
+                          "generalised-alpha"}),
+            "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
+            "only counts the load."},
+           {"Start", "0", allow.number(), "[s]."},
+           {"End", required, allow.number(), "[s]."},
+           {"Step",
+            required,
+            allow.step(),
+            "Fixed step, or a factor times the step that the waves allow an explicit method, of "
+            "every configuration (cfl) or of the first one (initial cfl)."},
+           {"Smallest step factor",
+            "1/1024",
+            allow.number(factor),
+            "A step that does not converge is cut; below this fraction of Step the run stops [-]."},
+           {"Break times", "", allow.numbers().or_empty(), "Times at which a step must end [s]."},
+           {"Newmark beta", "0.25", allow.number(beta), "Of the scheme newmark [-]."},
+           {"Newmark gamma", "0.5", allow.number(fraction), "Of the scheme newmark [-]."},
+           {"Spectral radius",
+            "0.818",
+            allow.number(fraction),
+            "Of generalised-alpha at infinite frequency; 1 damps nothing [-]."},
+           {"Carry acceleration",
+            "true",
+            allow.truth(),
+            "Whether material points keep their acceleration from step to step; false restarts "
+            "newmark, trapezoidal and generalised-alpha with zero at each step."}}};
+      }
+
+      SectionDeclaration
+      newton() const
+      {
+        return {
+          "Newton",
+          "When a step counts as solved.",
+          SectionKind::plain,
+          {{"Tolerance",
+            "1e-11",
+            allow.number(Range::positive()),
+            "Residual relative to the acting forces [-]."},
+           {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."}}};
+      }
+
+      SectionDeclaration
+      linear_solver() const
+      {
+        return {
+          "Linear solver",
+          "How the linear systems are solved.",
+          SectionKind::plain,
+          {{"Method",
+            "auto",
+            allow.one_of({"auto", "banded", "direct", "krylov-ilu", "krylov-amg"}),
+            "auto chooses by size and bandwidth."},
+           {"Tolerance",
+            "1e-10",
+            allow.number(Range::positive()),
+            "Relative residual of the Krylov methods [-]."},
+           {"Iterations", "1000", allow.whole_number(1), "At most, of the Krylov methods [-]."}}};
+      }
+
+      SectionDeclaration
+      mapping() const
+      {
+        Range fraction = Range::not_negative();
+        fraction.upper = 1;
+        return {"Mapping",
+                "Between material points and grid.",
+                SectionKind::plain,
+                {{"Velocity",
+                  "flip",
+                  allow.one_of({"flip", "pic"}),
+                  "flip: points take the change of the grid's velocity. pic: the velocity itself, "
+                  "which damps."},
+                 {"Lumping",
+                  "0",
+                  allow.number(fraction),
+                  "Mass matrix from 0, consistent, to 1, lumped [-]."},
+                 {"Audit",
+                  "false",
+                  allow.truth(),
+                  "Write what each mapping loses of momenta and kinetic energy."}}};
+      }
+
+      SectionDeclaration
+      output() const
+      {
+        const Range at_least_zero = Range::not_negative();
+        return {
+          "Output",
+          "What is written, and how often.",
+          SectionKind::plain,
+          {{"Points interval",
+            "",
+            allow.number(at_least_zero).or_empty(),
+            "Simulated time between pictures of the material points [s]; 0: none; empty: a "
+            "fiftieth of the simulated time, unless Points every steps is given."},
+           {"Points every steps",
+            "0",
+            allow.whole_number(0),
+            "Steps between pictures of the material points [-]; 0: does not count."},
+           {"Fields",
+            "displacement, velocity, cauchy_stress, pressure, von_mises_stress, det_F, volume, body",
+            allow
+              .list_of({"position",
+                        "displacement",
+                        "velocity",
+                        "acceleration",
+                        "deformation_gradient",
+                        "det_F",
+                        "half_lengths",
+                        "kirchhoff_stress",
+                        "cauchy_stress",
+                        "pressure",
+                        "von_mises_stress",
+                        "strain_energy",
+                        "kinetic_energy",
+                        "mass",
+                        "volume",
+                        "body",
+                        "id",
+                        "equivalent_plastic_strain",
+                        "plastic_dissipation"})
+              .or_empty(),
+            "What the pictures hold."},
+           {"Formats",
+            "vtu",
+            allow.list_of({"vtu", "hdf5"}).or_empty(),
+            "vtu: points.pvd for ParaView. hdf5: HDF5 with XDMF."},
+           {"Grid", "false", allow.truth(), "Whether the grid is written too, as grid.pvd."},
+           {"Checkpoint every steps",
+            "0",
+            allow.whole_number(0),
+            "Steps between checkpoints [-]; 0: does not count."},
+           {"Checkpoint interval",
+            "600",
+            allow.number(at_least_zero),
+            "Wall time between checkpoints [s]; 0: does not count."},
+           {"Progress interval",
+            "1",
+            allow.number(at_least_zero),
+            "Wall time between lines on the screen [s]; 0: a line per step."}}};
+      }
+
+      SectionDeclaration
+      probes() const
+      {
+        return {
+          "Probes",
+          "What is followed in probes.csv. Either Place or Face says what.",
+          SectionKind::named,
+          {{"Body", "", allow.text("the name of a section of Bodies").or_empty(), "Empty: any."},
+           {"Place",
+            "",
+            allow.vector().or_empty(),
+            "The material point nearest to it at the start is followed [m]."},
+           {"Face",
+            "",
+            allow.side().or_empty(),
+            "The mean over the points at the body's outermost face on this side."}}};
+      }
+
+      SectionDeclaration
+      checks() const
+      {
+        return {
+          "Checks",
+          "Known answers; each ends the run with a line PASS or FAIL.",
+          SectionKind::named,
+          {{"Quantity",
+            required,
+            allow.quantity(),
+            "What is compared. drift: largest change since Time. period: twice the mean spacing "
+            "of zero crossings after Time. point_error: volume mean of |field - Exact| at the end."},
+           {"Time",
+            "",
+            allow.number().or_empty(),
+            "When (at), else from when on [s]; empty: from the start."},
+           {"Exact",
+            "",
+            allow.expression(coordinates("XYZ"), coordinate_words("XYZ") + ", the initial place")
+              .or_empty(),
+            "The answer of point_error at each material point."},
+           {"Scale", "1", allow.number(Range::positive()), "The quantity is divided by it."},
+           {"Reference",
+            "",
+            allow.number().or_empty(),
+            "The known answer; empty: 0, for drift and point_error only."},
+           {"Tolerance", required, allow.tolerance(), "How far off it may be."},
+           {"Source", required, allow.text("any text"), "Where the known answer comes from."}}};
+      }
+
+      const ValuePatterns<dim> allow;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<SectionDeclaration>
+  declare_scene(const std::map<std::string, double> &constants)
+  {
+    return SceneDeclarations<dim>(constants).all();
+  }
+
+
+
+  template std::vector<SectionDeclaration>
+  declare_scene<2>(const std::map<std::string, double> &);
+  template std::vector<SectionDeclaration>
+  declare_scene<3>(const std::map<std::string, double> &);
+} // namespace kedge

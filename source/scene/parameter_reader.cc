@@ -1,0 +1,443 @@
+#include <kedge/base/expression.h>
+#include <kedge/base/nearest_name.h>
+#include <kedge/scene/parameter_reader.h>
+#include <kedge/scene/values.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace kedge
+{
+  namespace
+  {
+    using Path = std::vector<std::string>;
+
+    /** "Bodies/beam/Geometry" */
+    std::string
+    full_name(const Path &section, const std::string &entry)
+    {
+      std::string joined;
+      for (const std::string &part : section)
+        joined += part + "/";
+      return joined + entry;
+    }
+
+    std::string
+    join(const std::vector<std::string> &words)
+    {
+      std::string joined;
+      for (const std::string &word : words)
+        joined += (joined.empty() ? "" : ", ") + word;
+      return joined;
+    }
+
+    std::string
+    did_you_mean(const std::string &name, const std::vector<std::string> &candidates)
+    {
+      if (candidates.empty())
+        return "";
+      return " Did you mean '" + nearest_name(name, candidates) + "'?";
+    }
+
+    std::vector<std::string>
+    entry_names(const SectionDeclaration &section)
+    {
+      std::vector<std::string> names;
+      for (const EntryDeclaration &entry : section.entries)
+        names.push_back(entry.name);
+      return names;
+    }
+
+    /** Characters with a meaning in paths, columns, options or files. */
+    void
+    check_user_name(const std::string &name, const std::string &place)
+    {
+      const std::string forbidden = "/\\.,;=\"<>";
+      if (name.find_first_of(forbidden) != std::string::npos)
+        throw UserError(place + ": the name '" + name + "' may not hold any of the characters " +
+                        "/ \\ . , ; = \" < >.");
+    }
+
+    void
+    check_constant_name(const ParameterEntry &entry)
+    {
+      const std::vector<std::string> taken = {"x", "y", "z", "t", "X", "Y", "Z", "pi"};
+      const std::string place = entry.origin.describe() + ": Constants/" + entry.name + ": ";
+      if (std::find(taken.begin(), taken.end(), entry.name) != taken.end())
+        throw UserError(place + "the names x, y, z, t, X, Y, Z and pi are taken.");
+      try
+        {
+          Expression(entry.name, {}, {{entry.name, 0.}});
+        }
+      catch (const UserError &)
+        {
+          throw UserError(place + "this cannot be the name of a constant; it needs letters, digits "
+                                  "and _, no digit first, and may not be a function's name.");
+        }
+    }
+  } // namespace
+
+
+
+  std::map<std::string, double>
+  read_constants(const ParameterFile &file)
+  {
+    std::vector<ParameterEntry> unknown;
+    for (const ParameterEntry &entry : file.entries)
+      if (entry.section == Path{"Constants"})
+        {
+          check_constant_name(entry);
+          unknown.push_back(entry);
+        }
+
+    std::map<std::string, double> constants;
+    std::string                   first_problem;
+    while (!unknown.empty())
+      {
+        std::vector<ParameterEntry> still_unknown;
+        first_problem.clear();
+        for (const ParameterEntry &entry : unknown)
+          try
+            {
+              constants[entry.name] = evaluate_constant(entry.value, constants);
+            }
+          catch (const UserError &error)
+            {
+              still_unknown.push_back(entry);
+              if (first_problem.empty())
+                first_problem = entry.origin.describe() + ": Constants/" + entry.name + " = " +
+                                entry.value + ": " + error.what();
+            }
+        if (still_unknown.size() == unknown.size())
+          throw UserError(first_problem);
+        unknown = still_unknown;
+      }
+    return constants;
+  }
+
+
+
+  ParameterReader::ParameterReader(const ParameterFile                   &file,
+                                   const std::vector<SectionDeclaration> &declarations,
+                                   const std::map<std::string, double>   &constants)
+    : file(file)
+    , declarations(declarations)
+    , user_constants(constants)
+  {
+    check_sections();
+    for (const ParameterEntry &entry : file.entries)
+      check_entry(entry);
+    declare();
+    for (const ParameterEntry &entry : file.entries)
+      {
+        for (const std::string &section : entry.section)
+          handler.enter_subsection(section);
+        handler.set(entry.name, entry.value);
+        for (std::size_t i = 0; i < entry.section.size(); ++i)
+          handler.leave_subsection();
+      }
+  }
+
+
+
+  const SectionDeclaration &
+  ParameterReader::declaration(const std::string &section, const std::string &place) const
+  {
+    std::vector<std::string> known;
+    for (const SectionDeclaration &candidate : declarations)
+      if (candidate.name == section)
+        return candidate;
+      else if (!candidate.name.empty())
+        known.push_back(candidate.name);
+    throw UserError(place + ": there is no section '" + section + "'." +
+                    did_you_mean(section, known) + " Sections are " + join(known) + ".");
+  }
+
+
+
+  void
+  ParameterReader::check_sections() const
+  {
+    std::map<Path, ParameterOrigin> named;
+    for (const ParameterSection &section : file.sections)
+      {
+        const std::string         place  = section.origin.describe();
+        const SectionDeclaration &parent = declaration(section.path[0], place);
+        if (section.path.size() == 1)
+          continue;
+        if (section.path.size() > 2 || parent.kind != SectionKind::named)
+          throw UserError(place + ": the section " + full_name(section.path, "") +
+                          " cannot stand here; section " + section.path[0] +
+                          (parent.kind == SectionKind::named
+                             ? " holds subsections of one level only."
+                             : " holds no subsections."));
+        check_user_name(section.path[1], place);
+        const auto [first, is_new] = named.emplace(section.path, section.origin);
+        if (!is_new && first->second.file == section.origin.file)
+          throw UserError(place + ": the name " + section.path[0] + "/" + section.path[1] +
+                          " is given a second time; line " + std::to_string(first->second.line) +
+                          " has it already.");
+      }
+  }
+
+
+
+  void
+  ParameterReader::check_entry(const ParameterEntry &entry) const
+  {
+    const std::string         place = entry.origin.describe();
+    const std::string         name  = full_name(entry.section, entry.name);
+    const SectionDeclaration &section =
+      declaration(entry.section.empty() ? "" : entry.section[0], place);
+
+    const bool        named = section.kind == SectionKind::named;
+    const std::size_t depth = section.name.empty() ? 0 : (named ? 2 : 1);
+    if (entry.section.size() != depth)
+      throw UserError(
+        place + ": " + name + " is not an entry. " +
+        (named ? "Entries of this section have the form " + section.name + "/<name>/<entry>."
+               : "Section " + section.name + " holds no subsections."));
+    if (named)
+      check_user_name(entry.section[1], place);
+
+    const EntryDeclaration *declared = nullptr;
+    for (const EntryDeclaration &candidate : section.entries)
+      if (candidate.name == entry.name || section.kind == SectionKind::free_entries)
+        declared = &candidate;
+    if (declared == nullptr)
+      throw UserError(place + ": there is no entry " + name + "." +
+                      did_you_mean(entry.name, entry_names(section)) + " Entries here are " +
+                      join(entry_names(section)) + ".");
+
+    const std::string problem = declared->pattern.problem(entry.value);
+    if (!problem.empty())
+      throw UserError(place + ": " + name + " = " + entry.value + ": " + problem);
+  }
+
+
+
+  void
+  ParameterReader::declare()
+  {
+    const auto declare_entries = [&](const Path &path, const SectionDeclaration &section) {
+      for (const std::string &part : path)
+        handler.enter_subsection(part);
+      for (const EntryDeclaration &entry : section.entries)
+        {
+          const ValuePattern pattern =
+            entry.default_value ? entry.pattern : entry.pattern.or_empty();
+          handler.declare_entry(entry.name,
+                                entry.default_value.value_or(""),
+                                pattern,
+                                entry.documentation);
+        }
+      for (std::size_t i = 0; i < path.size(); ++i)
+        handler.leave_subsection();
+      for (const EntryDeclaration &entry : section.entries)
+        require(path, entry);
+    };
+
+    for (const SectionDeclaration &section : declarations)
+      if (section.name.empty())
+        declare_entries({}, section);
+      else if (section.kind == SectionKind::plain)
+        declare_entries({section.name}, section);
+      else if (section.kind == SectionKind::named)
+        for (const std::string &name : names(section.name))
+          declare_entries({section.name, name}, section);
+      else
+        {
+          SectionDeclaration                  given = section;
+          const std::vector<EntryDeclaration> model = std::move(given.entries);
+          given.entries.clear();
+          for (const ParameterEntry &entry : file.entries)
+            if (entry.section == Path{section.name})
+              {
+                given.entries.push_back(model[0]);
+                given.entries.back().name = entry.name;
+              }
+          declare_entries({section.name}, given);
+        }
+  }
+
+
+
+  void
+  ParameterReader::require(const Path &section, const EntryDeclaration &entry) const
+  {
+    if (entry.default_value)
+      return;
+    for (const ParameterEntry &given : file.entries)
+      if (given.section == section && given.name == entry.name)
+        return;
+
+    std::string hint;
+    if (section.size() == 2)
+      {
+        std::vector<std::string> opened;
+        for (const ParameterSection &candidate : file.sections)
+          if (candidate.path.size() == 2 && candidate.path[0] == section[0])
+            opened.push_back(candidate.path[1]);
+        if (std::find(opened.begin(), opened.end(), section[1]) == opened.end())
+          hint = did_you_mean(section[1], opened);
+      }
+    throw UserError(place(section, entry.name) + ": " + full_name(section, entry.name) +
+                    " must be given: " + entry.pattern.description() + "." + hint);
+  }
+
+
+
+  std::vector<std::string>
+  ParameterReader::names(const std::string &section) const
+  {
+    std::vector<std::string> names;
+    const auto               add = [&](const Path &path) {
+      if (path.size() == 2 && path[0] == section &&
+          std::find(names.begin(), names.end(), path[1]) == names.end())
+        names.push_back(path[1]);
+    };
+    for (const ParameterSection &opened : file.sections)
+      add(opened.path);
+    for (const ParameterEntry &entry : file.entries)
+      add(entry.section);
+    return names;
+  }
+
+
+
+  std::string
+  ParameterReader::text(const Path &section, const std::string &name) const
+  {
+    return handler.get(section, name);
+  }
+
+
+
+  std::string
+  ParameterReader::place(const Path &section, const std::string &name) const
+  {
+    for (const ParameterEntry &entry : file.entries)
+      if (entry.section == section && entry.name == name)
+        return entry.origin.describe();
+    for (const ParameterSection &opened : file.sections)
+      if (opened.path == section)
+        return opened.origin.describe();
+    for (const ParameterEntry &entry : file.entries)
+      if (entry.section == section)
+        return entry.origin.describe();
+    return file.file_name == "-" ? "standard input" : file.file_name;
+  }
+
+
+
+  const std::map<std::string, double> &
+  ParameterReader::constants() const
+  {
+    return user_constants;
+  }
+
+
+
+  std::string
+  ParameterReader::print() const
+  {
+    std::ostringstream out;
+    handler.print_parameters(out,
+                             dealii::ParameterHandler::ShortPRM |
+                               dealii::ParameterHandler::KeepDeclarationOrder);
+    return out.str();
+  }
+
+
+
+  SectionReader::SectionReader(const ParameterReader &reader, const Path &path)
+    : reader(reader)
+    , path(path)
+  {}
+
+
+
+  const std::string &
+  SectionReader::name() const
+  {
+    return path.back();
+  }
+
+
+
+  std::string
+  SectionReader::text(const std::string &entry) const
+  {
+    return reader.text(path, entry);
+  }
+
+
+
+  bool
+  SectionReader::is_empty(const std::string &entry) const
+  {
+    return text(entry).empty();
+  }
+
+
+
+  double
+  SectionReader::number(const std::string &entry) const
+  {
+    return evaluate_constant(text(entry), constants());
+  }
+
+
+
+  unsigned int
+  SectionReader::whole_number(const std::string &entry) const
+  {
+    return parse_whole_number(text(entry), constants());
+  }
+
+
+
+  bool
+  SectionReader::truth(const std::string &entry) const
+  {
+    return parse_truth(text(entry));
+  }
+
+
+
+  std::vector<std::string>
+  SectionReader::list(const std::string &entry) const
+  {
+    return split_list(text(entry));
+  }
+
+
+
+  std::vector<double>
+  SectionReader::numbers(const std::string &entry) const
+  {
+    std::vector<double> values;
+    for (const std::string &part : list(entry))
+      values.push_back(evaluate_constant(part, constants()));
+    return values;
+  }
+
+
+
+  const std::map<std::string, double> &
+  SectionReader::constants() const
+  {
+    return reader.constants();
+  }
+
+
+
+  UserError
+  SectionReader::error(const std::string &entry, const std::string &problem) const
+  {
+    const std::string value = text(entry);
+    return UserError(reader.place(path, entry) + ": " + full_name(path, entry) +
+                     (value.empty() ? "" : " = " + value) + ": " + problem);
+  }
+} // namespace kedge

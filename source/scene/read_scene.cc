@@ -1,0 +1,450 @@
+#include <kedge/base/nearest_name.h>
+#include <kedge/scene/parameter_reader.h>
+#include <kedge/scene/read_checks.h>
+#include <kedge/scene/read_scene.h>
+#include <kedge/scene/values.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace kedge
+{
+  namespace
+  {
+    /** How far, in edges of the grid, a body may reach past the grid by rounding. */
+    constexpr double domain_tolerance = 1e-10;
+
+    /** Pictures of a run whose scene does not say how many. */
+    constexpr unsigned int default_n_pictures = 50;
+
+    using ReadSection = std::function<void(const SectionReader &)>;
+
+    void
+    for_each_name(const ParameterReader &reader,
+                  const std::string     &section,
+                  const ReadSection     &read)
+    {
+      for (const std::string &name : reader.names(section))
+        read(SectionReader(reader, {section, name}));
+    }
+
+    template <int dim>
+    std::array<std::string, dim>
+    components(const SectionReader &section, const std::string &entry)
+    {
+      const std::vector<std::string> parts = section.list(entry);
+      std::array<std::string, dim>   result;
+      std::copy_n(parts.begin(), dim, result.begin());
+      return result;
+    }
+
+    template <int dim>
+    dealii::Point<dim>
+    point(const SectionReader &section, const std::string &entry)
+    {
+      const std::vector<double> numbers = section.numbers(entry);
+      dealii::Point<dim>        result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = numbers[d];
+      return result;
+    }
+
+    /** A number for each direction, or one for all. */
+    template <int dim>
+    std::array<unsigned int, dim>
+    counts(const SectionReader &section, const std::string &entry)
+    {
+      const std::vector<std::string> parts = section.list(entry);
+      std::array<unsigned int, dim>  result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = parse_whole_number(parts[parts.size() == 1 ? 0 : d], section.constants());
+      return result;
+    }
+
+    /** The index of the name that an entry holds among those of a section. */
+    unsigned int
+    find_name(const ParameterReader &reader,
+              const SectionReader   &section,
+              const std::string     &entry,
+              const std::string     &names_section)
+    {
+      const std::vector<std::string> names = reader.names(names_section);
+      const std::string              name  = section.text(entry);
+      const auto                     found = std::find(names.begin(), names.end(), name);
+      if (found == names.end())
+        throw section.error(entry,
+                            "There is no " + names_section + "/" + name + "." +
+                              (names.empty()
+                                 ? " The section " + names_section + " is empty."
+                                 : " Did you mean '" + nearest_name(name, names) + "'?"));
+      return static_cast<unsigned int>(found - names.begin());
+    }
+
+    /** Exactly one of two entries must be given; true if it is the first. */
+    bool
+    first_is_given(const SectionReader &section, const std::string &a, const std::string &b)
+    {
+      if (section.is_empty(a) && section.is_empty(b))
+        throw section.error(a, "Either " + a + " or " + b + " must be given.");
+      if (!section.is_empty(a) && !section.is_empty(b))
+        throw section.error(b, "Only one of " + a + " and " + b + " may be given.");
+      return !section.is_empty(a);
+    }
+
+
+
+    template <int dim>
+    GridParameters<dim>
+    read_grid(const ParameterReader &reader)
+    {
+      const SectionReader section(reader, {"Grid"});
+      GridParameters<dim> grid;
+      grid.origin  = point<dim>(section, "Origin");
+      grid.extent  = point<dim>(section, "Extent");
+      grid.n_cells = counts<dim>(section, "Cells");
+      return grid;
+    }
+
+
+
+    std::vector<MaterialParameters>
+    read_materials(const ParameterReader &reader)
+    {
+      std::vector<MaterialParameters> materials;
+      for_each_name(reader, "Materials", [&](const SectionReader &section) {
+        MaterialParameters material;
+        material.name          = section.name();
+        material.kind          = MaterialKind::hencky;
+        material.density       = section.number("Density");
+        material.young_modulus = section.number("Young's modulus");
+        material.poisson_ratio = section.number("Poisson's ratio");
+        materials.push_back(material);
+      });
+      return materials;
+    }
+
+
+
+    template <int dim>
+    dealii::BoundingBox<dim>
+    grid_box(const GridParameters<dim> &grid)
+    {
+      return dealii::BoundingBox<dim>({grid.origin, grid.origin + grid.extent});
+    }
+
+    template <int dim>
+    void
+    check_inside_grid(const SectionReader       &section,
+                      const Geometry<dim>       &geometry,
+                      const GridParameters<dim> &grid)
+    {
+      const auto [lower, upper] = geometry.bounding_box(grid_box(grid)).get_boundary_points();
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double low    = grid.origin[d];
+          const double high   = grid.origin[d] + grid.extent[d];
+          const double margin = domain_tolerance * grid.extent[d];
+          if (lower[d] < low - margin || upper[d] > high + margin)
+            {
+              std::ostringstream problem;
+              problem << "The body reaches from " << lower[d] << " to " << upper[d]
+                      << " in direction "
+                      << "xyz"[d] << ", the grid only from " << low << " to " << high
+                      << " (Grid/Origin and Grid/Extent).";
+              throw section.error("Geometry", problem.str());
+            }
+        }
+    }
+
+    template <int dim>
+    std::vector<BodyParameters<dim>>
+    read_bodies(const ParameterReader &reader, const GridParameters<dim> &grid)
+    {
+      std::vector<BodyParameters<dim>> bodies;
+      for_each_name(reader, "Bodies", [&](const SectionReader &section) {
+        BodyParameters<dim> body;
+        body.name            = section.name();
+        body.geometry        = parse_geometry<dim>(section.text("Geometry"), section.constants());
+        body.material        = find_name(reader, section, "Material", "Materials");
+        body.points_per_cell = counts<dim>(section, "Points per cell");
+        body.basis = section.text("Basis") == "gimp" ? BasisKind::gimp : BasisKind::linear;
+        body.initial_velocity = components<dim>(section, "Initial velocity");
+        body.body_force       = section.truth("Body force");
+        check_inside_grid(section, *body.geometry, grid);
+        bodies.push_back(body);
+      });
+      if (bodies.empty())
+        throw UserError(reader.place({"Bodies"}, "") +
+                        ": the scene has no body; add a subsection Bodies/<name>.");
+      return bodies;
+    }
+
+
+
+    template <int dim>
+    std::vector<NodeConditionParameters<dim>>
+    read_node_conditions(const ParameterReader &reader)
+    {
+      const std::string                         directions = "xyz";
+      std::vector<NodeConditionParameters<dim>> conditions;
+      for_each_name(reader, "Node conditions", [&](const SectionReader &section) {
+        NodeConditionParameters<dim> condition;
+        condition.name    = section.name();
+        condition.on_side = first_is_given(section, "Side", "Where");
+        if (condition.on_side)
+          condition.side = parse_side<dim>(section.text("Side"));
+        else
+          condition.where = section.text("Where");
+        bool acts = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            condition.components[d] =
+              parse_component_condition(section.text(std::string("Component ") + directions[d]),
+                                        section.constants());
+            acts = acts || condition.components[d].kind != ConditionKind::free;
+          }
+        if (!acts)
+          throw section.error("Component x",
+                              "All components are free, so the condition does nothing; fix or "
+                              "move one or leave the condition out.");
+        conditions.push_back(condition);
+      });
+      return conditions;
+    }
+
+
+
+    template <int dim>
+    std::vector<PointLoadParameters<dim>>
+    read_point_loads(const ParameterReader &reader)
+    {
+      std::vector<PointLoadParameters<dim>> loads;
+      for_each_name(reader, "Point loads", [&](const SectionReader &section) {
+        find_name(reader, section, "Body", "Bodies");
+        PointLoadParameters<dim> load;
+        load.name     = section.name();
+        load.body     = section.text("Body");
+        load.place    = point<dim>(section, "Place");
+        load.n_points = section.whole_number("Points");
+        load.force    = components<dim>(section, "Force");
+        loads.push_back(load);
+      });
+      return loads;
+    }
+
+    template <int dim>
+    std::vector<TractionParameters<dim>>
+    read_tractions(const ParameterReader &reader)
+    {
+      std::vector<TractionParameters<dim>> tractions;
+      for_each_name(reader, "Tractions", [&](const SectionReader &section) {
+        find_name(reader, section, "Body", "Bodies");
+        TractionParameters<dim> traction;
+        traction.name     = section.name();
+        traction.body     = section.text("Body");
+        traction.side     = parse_side<dim>(section.text("Side"));
+        traction.where    = section.text("Where");
+        traction.traction = components<dim>(section, "Traction");
+        tractions.push_back(traction);
+      });
+      return tractions;
+    }
+
+
+
+    TimeParameters
+    read_time(const ParameterReader &reader)
+    {
+      static const std::map<std::string, SchemeKind> schemes = {
+        {"quasi-static", SchemeKind::quasi_static},
+        {"clc-midpoint", SchemeKind::clc_midpoint},
+        {"midpoint", SchemeKind::midpoint},
+        {"trapezoidal", SchemeKind::trapezoidal},
+        {"newmark", SchemeKind::newmark},
+        {"generalised-alpha", SchemeKind::generalised_alpha}};
+
+      const SectionReader section(reader, {"Time"});
+      TimeParameters      time;
+      time.scheme = schemes.at(section.text("Scheme"));
+      time.start  = section.number("Start");
+      time.end    = section.number("End");
+      if (!(time.end > time.start))
+        throw section.error("End", "It must be later than Start = " + section.text("Start") + ".");
+
+      const auto [kind, value] = parse_step(section.text("Step"), section.constants());
+      time.step_kind           = kind;
+      (kind == StepSizeKind::fixed ? time.step : time.cfl_factor) = value;
+      time.minimum_step_factor = section.number("Smallest step factor");
+
+      time.break_times = section.numbers("Break times");
+      for (const double break_time : time.break_times)
+        if (!(break_time > time.start && break_time <= time.end))
+          throw section.error("Break times", "Each must be later than Start and not after End.");
+      std::sort(time.break_times.begin(), time.break_times.end());
+      time.break_times.erase(std::unique(time.break_times.begin(), time.break_times.end()),
+                             time.break_times.end());
+
+      time.newmark_beta       = section.number("Newmark beta");
+      time.newmark_gamma      = section.number("Newmark gamma");
+      time.spectral_radius    = section.number("Spectral radius");
+      time.carry_acceleration = section.truth("Carry acceleration");
+      return time;
+    }
+
+
+
+    NewtonParameters
+    read_newton(const ParameterReader &reader)
+    {
+      const SectionReader section(reader, {"Newton"});
+      NewtonParameters    newton;
+      newton.tolerance      = section.number("Tolerance");
+      newton.max_iterations = section.whole_number("Iterations");
+      return newton;
+    }
+
+    LinearSolverParameters
+    read_linear_solver(const ParameterReader &reader)
+    {
+      static const std::map<std::string, LinearSolverKind> methods = {
+        {"auto", LinearSolverKind::automatic},
+        {"banded", LinearSolverKind::banded},
+        {"direct", LinearSolverKind::direct},
+        {"krylov-ilu", LinearSolverKind::krylov_ilu},
+        {"krylov-amg", LinearSolverKind::krylov_amg}};
+
+      const SectionReader    section(reader, {"Linear solver"});
+      LinearSolverParameters solver;
+      solver.kind           = methods.at(section.text("Method"));
+      solver.tolerance      = section.number("Tolerance");
+      solver.max_iterations = section.whole_number("Iterations");
+      return solver;
+    }
+
+    TransferParameters
+    read_mapping(const ParameterReader &reader)
+    {
+      const SectionReader section(reader, {"Mapping"});
+      TransferParameters  transfer;
+      transfer.velocity_mapping =
+        section.text("Velocity") == "pic" ? VelocityMapping::pic : VelocityMapping::flip;
+      transfer.lumping = section.number("Lumping");
+      transfer.audit   = section.truth("Audit");
+      return transfer;
+    }
+
+
+
+    OutputParameters
+    read_output(const ParameterReader &reader, const TimeParameters &time)
+    {
+      const SectionReader            section(reader, {"Output"});
+      const std::vector<std::string> formats = section.list("Formats");
+      const auto                     has     = [&](const std::string &format) {
+        return std::find(formats.begin(), formats.end(), format) != formats.end();
+      };
+
+      OutputParameters output;
+      output.points_every_steps = section.whole_number("Points every steps");
+      if (!section.is_empty("Points interval"))
+        output.points_interval = section.number("Points interval");
+      else if (output.points_every_steps == 0)
+        output.points_interval = (time.end - time.start) / default_n_pictures;
+      output.fields                 = section.list("Fields");
+      output.vtu                    = has("vtu");
+      output.hdf5                   = has("hdf5");
+      output.grid                   = section.truth("Grid");
+      output.checkpoint_every_steps = section.whole_number("Checkpoint every steps");
+      output.checkpoint_interval    = section.number("Checkpoint interval");
+      output.progress_interval      = section.number("Progress interval");
+      return output;
+    }
+
+
+
+    template <int dim>
+    std::vector<ProbeParameters<dim>>
+    read_probes(const ParameterReader &reader)
+    {
+      std::vector<ProbeParameters<dim>> probes;
+      for_each_name(reader, "Probes", [&](const SectionReader &section) {
+        ProbeParameters<dim> probe;
+        probe.name = section.name();
+        if (!section.is_empty("Body"))
+          find_name(reader, section, "Body", "Bodies");
+        probe.body      = section.text("Body");
+        probe.face_mean = !first_is_given(section, "Place", "Face");
+        if (probe.face_mean)
+          probe.side = parse_side<dim>(section.text("Face"));
+        else
+          probe.place = point<dim>(section, "Place");
+        probes.push_back(probe);
+      });
+      return probes;
+    }
+  } // namespace
+
+
+
+  unsigned int
+  scene_dimension(const ParameterFile &file)
+  {
+    for (const ParameterEntry &entry : file.entries)
+      if (entry.section.empty() && entry.name == "Dimension")
+        {
+          if (entry.value != "2" && entry.value != "3")
+            throw UserError(entry.origin.describe() + ": Dimension = " + entry.value +
+                            ": It must be 2 (plane strain) or 3.");
+          return entry.value == "2" ? 2 : 3;
+        }
+    // the reader says which entry is misspelt or that Dimension is missing
+    ParameterFile top_level;
+    top_level.file_name = file.file_name;
+    for (const ParameterEntry &entry : file.entries)
+      if (entry.section.empty())
+        top_level.entries.push_back(entry);
+    ParameterReader(top_level, {declare_scene<2>({}).front()}, {});
+    Assert(false, dealii::ExcInternalError());
+    return dealii::numbers::invalid_unsigned_int;
+  }
+
+
+
+  template <int dim>
+  Scene<dim>
+  read_scene(const ParameterFile &file)
+  {
+    Scene<dim> scene;
+    scene.constants = read_constants(file);
+    const ParameterReader reader(file, declare_scene<dim>(scene.constants), scene.constants);
+    if (scene_dimension(file) != dim)
+      throw UserError("A scene with Dimension = " + std::to_string(scene_dimension(file)) +
+                      " cannot be read as one of " + std::to_string(dim) + " dimensions.");
+
+    scene.name            = file.scene_name();
+    scene.title           = SectionReader(reader, {}).text("Title");
+    scene.grid            = read_grid<dim>(reader);
+    scene.node_conditions = read_node_conditions<dim>(reader);
+    scene.materials       = read_materials(reader);
+    scene.bodies          = read_bodies<dim>(reader, scene.grid);
+    scene.body_force      = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
+    scene.point_loads     = read_point_loads<dim>(reader);
+    scene.tractions       = read_tractions<dim>(reader);
+    scene.time            = read_time(reader);
+    scene.newton          = read_newton(reader);
+    scene.linear_solver   = read_linear_solver(reader);
+    scene.transfer        = read_mapping(reader);
+    scene.output          = read_output(reader, scene.time);
+    scene.probes          = read_probes<dim>(reader);
+    scene.checks          = read_checks(reader, scene.time);
+    scene.parameters      = reader.print();
+    return scene;
+  }
+
+
+
+  template Scene<2>
+  read_scene<2>(const ParameterFile &);
+  template Scene<3>
+  read_scene<3>(const ParameterFile &);
+} // namespace kedge

@@ -1,0 +1,302 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/base/expression.h>
+#include <kedge/base/nearest_name.h>
+#include <kedge/scene/values.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace kedge
+{
+  namespace
+  {
+    using Constants = std::map<std::string, double>;
+
+    /** How far, relative, a count given as an expression may be from a whole number. */
+    constexpr double rounding_tolerance = 1e-9;
+
+    std::string
+    to_text(const double number)
+    {
+      std::ostringstream out;
+      out << number;
+      return out.str();
+    }
+
+    std::string
+    join(const std::vector<std::string> &words, const std::string &separator)
+    {
+      std::string joined;
+      for (const std::string &word : words)
+        joined += (joined.empty() ? "" : separator) + word;
+      return joined;
+    }
+
+    /** Removes @p ending and the blanks before it; false if the text does not end so. */
+    bool
+    strip_ending(std::string &text, const std::string &ending)
+    {
+      if (text.size() < ending.size() ||
+          text.compare(text.size() - ending.size(), ending.size(), ending) != 0)
+        return false;
+      text = dealii::Utilities::trim(text.substr(0, text.size() - ending.size()));
+      return true;
+    }
+
+    /** Splits "name(argument)"; false if the text has another form. */
+    bool
+    split_call(const std::string &text, std::string &name, std::string &argument)
+    {
+      const std::size_t open = text.find('(');
+      if (open == std::string::npos || text.back() != ')')
+        return false;
+      name     = dealii::Utilities::trim(text.substr(0, open));
+      argument = dealii::Utilities::trim(text.substr(open + 1, text.size() - open - 2));
+      return true;
+    }
+
+    void
+    check_count(const std::size_t found, const unsigned int wanted, const std::string &what)
+    {
+      if (found != wanted)
+        throw UserError("It must be " + std::to_string(wanted) + " " + what +
+                        " separated by commas or semicolons, not " + std::to_string(found) + ".");
+    }
+  } // namespace
+
+
+
+  NumberRange
+  NumberRange::positive()
+  {
+    NumberRange range;
+    range.lower          = 0;
+    range.includes_lower = false;
+    return range;
+  }
+
+
+
+  NumberRange
+  NumberRange::not_negative()
+  {
+    NumberRange range;
+    range.lower = 0;
+    return range;
+  }
+
+
+
+  bool
+  NumberRange::contains(const double number) const
+  {
+    return (includes_lower ? number >= lower : number > lower) &&
+           (includes_upper ? number <= upper : number < upper);
+  }
+
+
+
+  std::string
+  NumberRange::describe() const
+  {
+    std::string text;
+    if (std::isfinite(lower))
+      text += (includes_lower ? " of at least " : " greater than ") + to_text(lower);
+    if (std::isfinite(upper))
+      text += (text.empty() ? "" : " and") +
+              std::string(includes_upper ? " of at most " : " less than ") + to_text(upper);
+    return text;
+  }
+
+
+
+  double
+  parse_number(const std::string &text, const Constants &constants, const NumberRange &range)
+  {
+    const double number = evaluate_constant(text, constants);
+    if (!range.contains(number))
+      throw UserError("It must be a number" + range.describe() + ".");
+    return number;
+  }
+
+
+
+  unsigned int
+  parse_whole_number(const std::string &text,
+                     const Constants   &constants,
+                     const unsigned int minimum)
+  {
+    const double number = evaluate_constant(text, constants);
+    const double whole  = std::round(number);
+    if (std::abs(number - whole) > rounding_tolerance * std::max(1., std::abs(whole)) ||
+        whole < minimum || whole > std::numeric_limits<unsigned int>::max())
+      throw UserError("It must be a whole number of at least " + std::to_string(minimum) + ".");
+    return static_cast<unsigned int>(whole);
+  }
+
+
+
+  std::vector<double>
+  parse_numbers(const std::string &text,
+                const unsigned int n_numbers,
+                const Constants   &constants,
+                const NumberRange &range)
+  {
+    const std::vector<std::string> parts = split_list(text);
+    check_count(parts.size(), n_numbers, "numbers");
+    std::vector<double> numbers;
+    for (const std::string &part : parts)
+      numbers.push_back(parse_number(part, constants, range));
+    return numbers;
+  }
+
+
+
+  std::vector<std::string>
+  parse_expressions(const std::string              &text,
+                    const unsigned int              n_expressions,
+                    const std::vector<std::string> &variables,
+                    const Constants                &constants)
+  {
+    const std::vector<std::string> parts = split_list(text);
+    check_count(parts.size(), n_expressions, "expressions");
+    for (const std::string &part : parts)
+      Expression(part, variables, constants);
+    return parts;
+  }
+
+
+
+  void
+  parse_choice(const std::string &text, const std::vector<std::string> &choices)
+  {
+    if (std::find(choices.begin(), choices.end(), text) == choices.end())
+      throw UserError("It must be one of " + join(choices, ", ") + "; did you mean " +
+                      nearest_name(text, choices) + "?");
+  }
+
+
+
+  bool
+  parse_truth(const std::string &text)
+  {
+    parse_choice(text, {"true", "false"});
+    return text == "true";
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  parse_side(const std::string &text)
+  {
+    const std::vector<std::string> words = {"left", "right", "bottom", "top", "back", "front"};
+    const std::vector<std::string> signs = {"x-", "x+", "y-", "y+", "z-", "z+"};
+    std::vector<std::string>       choices;
+    for (const auto &names : {words, signs})
+      for (unsigned int side = 0; side < 2 * dim; ++side)
+        {
+          if (text == names[side])
+            return side;
+          choices.push_back(names[side]);
+        }
+    throw UserError("It must be one of " + join(choices, ", ") + "; did you mean " +
+                    nearest_name(text, choices) + "?");
+  }
+
+
+
+  ComponentCondition
+  parse_component_condition(const std::string &text, const Constants &constants)
+  {
+    ComponentCondition condition;
+    std::string        name, argument;
+    if (text == "free")
+      condition.kind = ConditionKind::free;
+    else if (text == "fixed")
+      condition.kind = ConditionKind::fixed;
+    else if (split_call(text, name, argument) && (name == "displacement" || name == "velocity"))
+      {
+        condition.kind =
+          name == "displacement" ? ConditionKind::displacement : ConditionKind::velocity;
+        condition.expression = argument;
+        Expression(argument, {"t"}, constants);
+      }
+    else
+      throw UserError("It must be free, fixed, displacement(expression of t) or "
+                      "velocity(expression of t); did you mean " +
+                      nearest_name(text.substr(0, text.find('(')),
+                                   {"free", "fixed", "displacement", "velocity"}) +
+                      "?");
+    return condition;
+  }
+
+
+
+  std::pair<StepSizeKind, double>
+  parse_step(const std::string &text, const Constants &constants)
+  {
+    StepSizeKind kind   = StepSizeKind::fixed;
+    std::string  number = text;
+    if (strip_ending(number, "cfl"))
+      kind =
+        strip_ending(number, "initial") ? StepSizeKind::cfl_initial : StepSizeKind::cfl_adaptive;
+    if (number.empty())
+      throw UserError("The factor before cfl is missing; write for example 15 cfl.");
+    return {kind, parse_number(number, constants, NumberRange::positive())};
+  }
+
+
+
+  std::pair<CheckStatistic, std::string>
+  parse_quantity(const std::string &text)
+  {
+    const std::map<std::string, CheckStatistic> statistics = {{"at", CheckStatistic::at},
+                                                              {"last", CheckStatistic::last},
+                                                              {"minimum", CheckStatistic::minimum},
+                                                              {"maximum", CheckStatistic::maximum},
+                                                              {"max_abs", CheckStatistic::max_abs},
+                                                              {"drift", CheckStatistic::drift},
+                                                              {"period", CheckStatistic::period},
+                                                              {"point_error",
+                                                               CheckStatistic::point_error}};
+    std::string                                 name, column;
+    if (!split_call(text, name, column) || column.empty())
+      throw UserError("It must have the form statistic(column), for example "
+                      "last(history.total_energy).");
+    std::vector<std::string> names;
+    for (const auto &statistic : statistics)
+      names.push_back(statistic.first);
+    parse_choice(name, names);
+    const CheckStatistic statistic = statistics.at(name);
+    const bool           of_columns =
+      column.rfind("history.", 0) == 0 ||
+      (column.rfind("probe.", 0) == 0 && column.find('.') != column.rfind('.'));
+    if (statistic != CheckStatistic::point_error && !of_columns)
+      throw UserError("Within the parentheses stands history.COLUMN or probe.NAME.COLUMN.");
+    if (statistic == CheckStatistic::point_error && column.find('.') != std::string::npos)
+      throw UserError("point_error takes the name of a field of the material points, for example "
+                      "cauchy_stress_yy.");
+    return {statistic, column};
+  }
+
+
+
+  std::pair<double, bool>
+  parse_tolerance(const std::string &text, const Constants &constants)
+  {
+    std::string  number      = text;
+    const bool   is_relative = strip_ending(number, "%");
+    const double value       = parse_number(number, constants, NumberRange::not_negative());
+    return {is_relative ? value / 100 : value, is_relative};
+  }
+
+
+
+  template unsigned int
+  parse_side<2>(const std::string &);
+  template unsigned int
+  parse_side<3>(const std::string &);
+} // namespace kedge

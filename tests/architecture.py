@@ -1,0 +1,153 @@
+"""Holds the rules of the house: architecture.py ROOT [--arrows]
+
+- the include arrows between the rooms, and no include cycles;
+- no file over 500 lines; no absolute path of somebody's home;
+- header guards named after the file; no build or work marks left behind;
+- every scene in prm/ is run by a test or a benchmark.
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+# What each room may include besides itself and base. Parameter headers are
+# the exception: scene collects them from everywhere.
+MAY_INCLUDE = {
+    "base": set(),
+    "materials": set(),
+    "solvers": set(),
+    "time_integration": set(),
+    "grid": set(),
+    "points": {"grid"},
+    "basis": {"grid", "points"},
+    "transfer": {"basis", "grid", "points"},
+    "stress": {"transfer", "materials", "basis", "grid", "points"},
+}
+PHYSICS = MAY_INCLUDE["stress"] | {"stress"}
+MAY_INCLUDE["solid"] = PHYSICS
+MAY_INCLUDE["porous"] = PHYSICS
+MAY_INCLUDE["contact"] = PHYSICS - {"stress"}
+# scene sees nothing of the rooms but their parameters and the geometry it builds
+MAY_INCLUDE["scene"] = {"points"}
+MAY_INCLUDE["io"] = PHYSICS | {"scene", "solid", "porous", "contact"}
+MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) | {"io", "scene"}
+
+PARAMETER_HEADERS = re.compile(r"kedge/[a-z_]+/(parameters|loads|geometry)\.h$")
+LONGEST_FILE = 500
+CODE = {".cc", ".h", ".py", ".cmake", ".sh", ".prm", ".in"}
+HOME = re.compile(r"/(home|Users|root|work|tmp/[a-z])\b")
+
+
+def tracked_files(root):
+    """The files of the repository: what git tracks or would; all if there is no git."""
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard", "-z"],
+                            capture_output=True, text=True, check=False)
+    if listed.returncode == 0 and listed.stdout:
+        files = [root / name for name in listed.stdout.split("\0") if name]
+    else:
+        files = [path for path in root.rglob("*")
+                 if not re.match(r"(build|output|\.git)", str(path.relative_to(root)))]
+    return [path for path in files if path.is_file()]
+
+
+def includes(path):
+    """The kedge headers a file includes."""
+    text = path.read_text(encoding="utf-8")
+    return re.findall(r'^\s*#\s*include\s*[<"](kedge/[^>"]+)[>"]', text, re.MULTILINE)
+
+
+def room_of(name):
+    """The room of a header named kedge/room/file.h, or of a path below source/."""
+    parts = name.split("/")
+    return parts[1] if len(parts) > 2 else None
+
+
+def arrow_faults(root, files):
+    """Includes that go against the arrows."""
+    for path in files:
+        name = path.relative_to(root).as_posix()
+        match = re.match(r"(?:include/kedge|source)/([a-z_]+)/.*\.(?:h|cc)$", name)
+        if not match:
+            continue
+        room = match.group(1)
+        if room not in MAY_INCLUDE:
+            yield f"{name}: the room {room} is not in the plan of tests/architecture.py"
+            continue
+        for header in includes(path):
+            other = room_of(header)
+            if other in (room, "base", None) or other in MAY_INCLUDE[room]:
+                continue
+            if room in ("scene", "io") and PARAMETER_HEADERS.search(header):
+                continue
+            yield f"{name} includes {header}: {room} may not know {other}"
+
+
+def cycle_faults(root, files):
+    """Headers that include themselves through others."""
+    graph = {}
+    for path in files:
+        name = path.relative_to(root).as_posix()
+        if name.startswith("include/") and name.endswith(".h"):
+            graph[name[len("include/"):]] = includes(path)
+    state = {}
+
+    def visit(header, trail):
+        state[header] = "open"
+        for other in graph[header]:
+            if state.get(other) == "open":
+                yield "include cycle: " + " -> ".join([*trail, header, other])
+            elif other in graph and other not in state:
+                yield from visit(other, [*trail, header])
+        state[header] = "done"
+
+    for header in graph:
+        if header not in state:
+            yield from visit(header, [])
+
+
+def text_faults(root, files):
+    """Files that are too long, or say where they were written; wrong header guards."""
+    for path in files:
+        name = path.relative_to(root).as_posix()
+        if path.suffix not in CODE and path.name not in ("kedge", "check", "CMakeLists.txt"):
+            continue
+        lines = path.read_text(encoding="utf-8").splitlines()
+        if len(lines) > LONGEST_FILE:
+            yield f"{name}: {len(lines)} lines, at most {LONGEST_FILE}"
+        for number, line in enumerate(lines, 1):
+            if HOME.search(line) and name != "tests/architecture.py":
+                yield f"{name}:{number}: an absolute path of one machine: {line.strip()}"
+            if path.suffix in (".h", ".cc") and re.search(r"\b(TODO|FIXME|XXX)\b", line):
+                yield f"{name}:{number}: unfinished: {line.strip()}"
+        if name.startswith("include/kedge/") and path.suffix == ".h":
+            guard = "_".join(Path(name).with_suffix("").parts[1:])
+            if f"#ifndef {guard}_h" not in lines:
+                yield f"{name}: the header guard must be {guard}_h"
+
+
+def scene_faults(root, files):
+    """Scenes that nothing runs."""
+    users = [path for path in files
+             if path.relative_to(root).parts[0] in ("tests", "benchmarks")
+             and path.suffix in (".cmake", ".txt", ".py", ".sh")]
+    text = "\n".join(path.read_text(encoding="utf-8") for path in users)
+    for path in files:
+        name = path.relative_to(root).as_posix()
+        if name.startswith("prm/") and name.endswith(".prm") and path.name not in text:
+            yield f"{name}: no test and no benchmark runs it"
+
+
+def main():
+    """Prints every fault; ends with 1 if there is one."""
+    root = Path(sys.argv[1]).resolve()
+    files = tracked_files(root)
+    faults = []
+    for check in (arrow_faults, cycle_faults, text_faults, scene_faults):
+        faults += check(root, files)
+    print(*faults, sep="\n")
+    print(f"{len(files)} files, {len(faults)} faults")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,162 @@
+"""Tests the plot program: plot.py KEDGE_PLOT.py OUTPUT_FOLDER
+
+Writes the files of a small made-up run, reads them back with the program's
+own reader (bit for bit: the numbers went in as doubles) in every encoding,
+and demands that all pictures are drawn.
+"""
+import base64
+import math
+import shutil
+import struct
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+
+PROGRAM, OUTPUT = Path(sys.argv[1]), Path(sys.argv[2])
+sys.path.insert(0, str(PROGRAM.parent))
+
+import numpy as np  # noqa: E402
+from vtu_reader import read_points  # noqa: E402
+
+
+def compressed(values):
+    """VTK's compressed array in blocks of 64 bytes, as (header, body)."""
+    data = values.tobytes()
+    blocks = [zlib.compress(data[i:i + 64]) for i in range(0, len(data), 64)]
+    header = [len(blocks), 64, len(data) % 64, *map(len, blocks)]
+    return struct.pack(f"<{len(header)}Q", *header), b"".join(blocks)
+
+
+def write_vtu(path, arrays, encoding, squeeze):
+    """arrays: {name: (values, component names)}; the first one is the position."""
+    appended, lines = b"", []
+    for name, (values, labels) in arrays.items():
+        values = np.ascontiguousarray(values, dtype="<f8")
+        if squeeze:
+            header, body = compressed(values)
+        else:
+            header, body = struct.pack("<Q", values.nbytes), values.tobytes()
+        if encoding == "raw":
+            data = header + body
+        elif squeeze:
+            data = base64.b64encode(header) + base64.b64encode(body)
+        else:
+            data = base64.b64encode(header + body)
+        text = f'<DataArray type="Float64" Name="{name}" NumberOfComponents="{values.shape[1]}"'
+        text += "".join(f' ComponentName{i}="{label}"' for i, label in enumerate(labels))
+        if encoding == "ascii":
+            numbers = " ".join(repr(float(value)) for value in values.ravel())
+            text += f' format="ascii">{numbers}</DataArray>'
+        elif encoding == "inline":
+            text += f' format="binary">{data.decode()}</DataArray>'
+        else:
+            text += f' format="appended" offset="{len(appended)}"/>'
+            appended += data
+        lines.append(text)
+    text = ('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" '
+            'byte_order="LittleEndian" header_type="UInt64"'
+            + (' compressor="vtkZLibDataCompressor"' if squeeze else "")
+            + f'>\n<UnstructuredGrid>\n<Piece NumberOfPoints="{len(values)}" NumberOfCells="0">\n'
+            + f"<Points>\n{lines[0]}\n</Points>\n<PointData>\n" + "\n".join(lines[1:])
+            + "\n</PointData>\n</Piece>\n</UnstructuredGrid>\n")
+    data = text.encode()
+    if appended:
+        data += f'<AppendedData encoding="{encoding}">\n_'.encode()
+        data += appended + b"\n</AppendedData>\n"
+    path.write_bytes(data + b"</VTKFile>\n")
+
+
+def body(time):
+    """A bar of 20 x 4 points that bends and grows, with the fields a run writes."""
+    x, y = (grid.ravel() for grid in np.meshgrid(np.arange(20) / 2 + 0.25, np.arange(4) / 2 + 0.25))
+    angle, zero, one = 0.1 * time * x, 0 * x, 0 * x + 1
+    position = np.stack([x, y + 0.05 * time * x**2, zero], axis=1)
+    gradient = np.stack([np.cos(angle), -np.sin(angle), zero, np.sin(angle), np.cos(angle), zero,
+                         zero, zero, one], axis=1)
+    stress = np.stack([1e4 * time * (y - 1) * (10 - x), zero, zero, 1e3 * y, zero, zero], axis=1)
+    return {"Points": (position, []),
+            "velocity": (np.stack([zero, 0.05 * x**2, zero], axis=1), list("xyz")),
+            "cauchy_stress": (stress, ["xx", "yy", "zz", "xy", "yz", "xz"]),
+            "pressure": (-stress[:, :1] / 3, []),
+            "half_lengths": (np.full((len(x), 3), 0.25), list("xyz")),
+            "deformation_gradient": (gradient, [a + b for a in "xyz" for b in "xyz"])}
+
+
+def write_run(folder, frequency):
+    """The output folder of a run that swings."""
+    (folder / "points").mkdir(parents=True)
+    times = np.linspace(0, 4, 161)
+    with open(folder / "history.csv", "w", encoding="utf-8") as file:
+        file.write("step,time,time_step,newton_iterations,linear_iterations,rejected_attempts,"
+                   "kinetic_energy,strain_energy,external_work,total_energy,energy_error,"
+                   "linear_momentum_x,linear_momentum_y,angular_momentum_z,mass,wall_time\n")
+        for step, time in enumerate(times):
+            kinetic = 1e3 * math.sin(frequency * time) ** 2
+            file.write(f"{step},{time},0.025,{3 + step % 2},0,0,{kinetic},{1e3 - kinetic},0,1000,"
+                       f"{1e-10 * math.sin(9 * time)},{math.cos(frequency * time)},2,3,1,0.1\n")
+        file.write("161,4.0") # a row that was being written
+    with open(folder / "probes.csv", "w", encoding="utf-8") as file:
+        file.write("time,tip.position_x,tip.displacement_x,tip.displacement_y,tip.pressure\n")
+        for time in times:
+            file.write(f"{time},10,0,{math.sin(frequency * time)},{1e5 * math.cos(time)}\n")
+    entries = ""
+    for number, time in enumerate((0.0, 1.0, 2.0, 4.0)):
+        write_vtu(folder / f"points/points-{number:06d}.vtu", body(time), "raw", True)
+        entries += f'<DataSet timestep="{time}" part="0" file="points/points-{number:06d}.vtu"/>\n'
+    (folder / "points.pvd").write_text(
+        f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>\n{entries}'
+        "</Collection></VTKFile>\n", encoding="utf-8")
+
+
+def test_reader():
+    """Every encoding gives back the numbers that went in."""
+    expected = body(1.7)
+    for encoding in ("ascii", "inline", "base64", "raw"):
+        for squeeze in (False, True):
+            path = OUTPUT / f"{encoding}-{squeeze}.vtu"
+            write_vtu(path, expected, encoding, squeeze)
+            points = read_points(path)
+            assert np.array_equal(points.position, expected["Points"][0]), path
+            for name in list(expected)[1:]:
+                assert np.array_equal(points.fields[name], expected[name][0]), (path, name)
+            assert np.array_equal(points.values("cauchy_stress_xy"),
+                                  expected["cauchy_stress"][0][:, 3]), path
+
+
+def plot(*options, code=0):
+    """Runs the program; gives what it printed."""
+    done = subprocess.run([sys.executable, PROGRAM, *map(str, options)], capture_output=True,
+                          text=True, check=False)
+    assert done.returncode == code, f"exit code {done.returncode}\n{done.stdout}{done.stderr}"
+    return done.stdout + done.stderr
+
+
+def test_pictures():
+    """One run and two runs; every picture exists and is not empty."""
+    write_run(OUTPUT / "one", 2)
+    write_run(OUTPUT / "two", 3)
+    plot(OUTPUT / "one")
+    plot(OUTPUT / "one", OUTPUT / "two", "-o", OUTPUT / "both", "--field", "cauchy_stress_xx",
+         "--times", "1", "4", "--formats", "svg")
+    for folder, endings, bodies in (
+            ("one/pictures", ("png", "svg"), ["body-pressure"]),
+            ("both", ("svg",), ["body-cauchy_stress_xx-one", "body-cauchy_stress_xx-two"])):
+        for name in ["energies", "momenta", "solver", "probes", *bodies]:
+            for ending in endings:
+                path = OUTPUT / folder / f"{name}.{ending}"
+                assert path.stat().st_size > 3000, path
+
+
+def test_bad_input():
+    """A wrong folder and a wrong field are the user's errors and say what is right."""
+    assert "no folder" in plot(OUTPUT / "nowhere", code=1)
+    assert "cauchy_stress_xx" in plot(OUTPUT / "one", "--field", "sress", "--formats", "svg", code=1)
+
+
+shutil.rmtree(OUTPUT, ignore_errors=True)
+OUTPUT.mkdir(parents=True)
+test_reader()
+test_pictures()
+test_bad_input()
+print("all pictures drawn")
