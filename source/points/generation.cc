@@ -100,7 +100,7 @@ namespace kedge
                   const dealii::Point<dim>              &x,
                   const unsigned int                     body_index,
                   const MaterialParameters              &material,
-                  const std::array<Expression, dim>     &velocity)
+                  const std::array<Expression, std::size_t(dim)> &velocity)
     {
       PointState<dim> state;
       std::fill_n(reinterpret_cast<double *>(&state), n_state_values<dim>, 0.);
@@ -149,7 +149,7 @@ namespace kedge
         return;
       points.push_back({{first_id + points.size(),
                          x,
-                         state_at_rest(sub_cells, x, body_index, material, velocity)},
+                         state_at_rest<dim>(sub_cells, x, body_index, material, velocity)},
                         0u});
       places.push_back(sub);
       filled.insert(sub_cells.key(sub));

@@ -81,23 +81,29 @@ namespace kedge
     handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation(),
                                                                         grid.mapping(),
                                                                         n_state_values<dim>);
-    const auto &lattice = grid.lattice();
     for (const auto &record : records)
-      {
-        const auto         cell = lattice.cell_of(record.location);
-        dealii::Point<dim> unit;
-        for (int d = 0; d < dim; ++d)
-          unit[d] = lattice.scaled(record.location[d], d) - cell[d];
-        handler->insert_particle(
-          record.location,
-          unit,
-          record.id,
-          grid.cell_iterator(cell),
-          dealii::ArrayView<const double>(reinterpret_cast<const double *>(&record.state),
-                                          n_state_values<dim>));
-      }
+      insert(grid, record);
     handler->update_cached_numbers();
     n_global_ = handler->n_global_particles();
+  }
+
+
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record)
+  {
+    const auto         cell = grid.lattice().cell_of(record.location);
+    dealii::Point<dim> unit;
+    for (int d = 0; d < dim; ++d)
+      unit[d] = grid.lattice().scaled(record.location[d], d) - cell[d];
+    handler->insert_particle(
+      record.location,
+      unit,
+      record.id,
+      grid.cell_iterator(cell),
+      dealii::ArrayView<const double>(reinterpret_cast<const double *>(&record.state),
+                                      n_state_values<dim>));
   }
 
 
@@ -136,17 +142,18 @@ namespace kedge
     if (movers.empty())
       return true;
 
-    std::vector<dealii::Particles::Particle<dim>> copies;
-    std::vector<Iterator>                         leaving;
+    std::vector<PointRecord<dim>> copies;
+    std::vector<Iterator>         leaving;
     for (const auto &[particle, cell] : movers)
       {
         (void)cell;
-        copies.emplace_back(*particle);
+        copies.push_back(
+          {particle->get_id(), particle->get_location(), state_of(*particle)});
         leaving.push_back(particle);
       }
     handler->remove_particles(leaving);
     for (unsigned int i = 0; i < movers.size(); ++i)
-      handler->insert_particle(copies[i], movers[i].second);
+      insert(grid, copies[i]);
     handler->update_cached_numbers();
     return true;
   }

@@ -254,8 +254,9 @@ namespace kedge
            {"Step",
             required,
             allow.step(),
-            "Fixed step, or a factor times the step that the waves allow an explicit method, of "
-            "every configuration (cfl) or of the first one (initial cfl)."},
+            "Fixed step, or a factor times the step that the waves allow an explicit method: of "
+            "the undeformed materials (initial cfl), or of the nodes at every step, from sums of "
+            "mass and volume (cfl) or of density (density cfl)."},
            {"Smallest step factor",
             "1/1024",
             allow.number(factor),

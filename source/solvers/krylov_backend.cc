@@ -64,7 +64,7 @@ namespace kedge
         const IndexSet               rows = matrix.locally_owned_range_indices();
         TrilinosWrappers::MPI::Vector solution(rows, communicator), right_side(rows, communicator);
         double *values = right_side.trilinos_vector()[0];
-        double *scale  = (*scaling)[0];
+        double *scale  = scaling->Values();
         for (unsigned int i = 0; i < b.size(); ++i)
           values[i] = b[i] * scale[i];
 

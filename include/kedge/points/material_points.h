@@ -93,6 +93,9 @@ namespace kedge
       return *reinterpret_cast<PointState<dim> *>(particle.get_properties().data());
     }
 
+    void
+    insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
+
     bool
     relocate_within_rank(const BackgroundGrid<dim> &grid);
 

@@ -5,7 +5,7 @@
 #include <kedge/io/parameters.h>
 #include <kedge/materials/parameters.h>
 #include <kedge/points/parameters.h>
-#include <kedge/solid/loads.h>
+#include <kedge/solid/parameters.h>
 #include <kedge/solvers/parameters.h>
 #include <kedge/time_integration/parameters.h>
 #include <kedge/transfer/parameters.h>

@@ -19,8 +19,9 @@ namespace kedge
   enum class StepSizeKind
   {
     fixed,
-    cfl_initial, ///< factor times the CFL step of the first configuration
-    cfl_adaptive ///< factor times the CFL step (3.127), renewed every step
+    cfl_initial, ///< factor times the materials' CFL step (3.126) at the start
+    cfl_nodal,   ///< factor times the nodal CFL step (3.127), renewed every step
+    cfl_density  ///< factor times the nodal CFL step (3.195), renewed every step
   };
 
   struct TimeParameters

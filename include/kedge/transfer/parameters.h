@@ -3,7 +3,7 @@
 
 namespace kedge
 {
-  enum class VelocityMapping
+  enum class VelocityUpdate
   {
     flip,
     pic
@@ -11,7 +11,7 @@ namespace kedge
 
   struct TransferParameters
   {
-    VelocityMapping velocity_mapping = VelocityMapping::flip;
+    VelocityUpdate velocity_mapping = VelocityUpdate::flip;
     double          lumping          = 0;     ///< epsilon of (3.161): 0 consistent, 1 lumped
     bool            audit            = false; ///< write what each mapping loses, Tables 3.1, 3.2
   };

@@ -37,6 +37,9 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> velocity;     ///< [m/s]
     std::vector<dealii::Tensor<1, dim>> acceleration; ///< [m/s^2]
     std::vector<StressState<dim>>       stress_state;
+    std::vector<unsigned int>           slot_of; ///< slot of each point in the cloud's order
+    /** Slots and ids of the points that carry loads. */
+    std::vector<std::pair<unsigned int, std::uint64_t>> loaded;
 
     /** Reads the cloud; @p basis_of_body says which stencil each body uses. */
     void

@@ -1,5 +1,5 @@
-#ifndef kedge_solid_loads_h
-#define kedge_solid_loads_h
+#ifndef kedge_solid_parameters_h
+#define kedge_solid_parameters_h
 
 #include <deal.II/base/point.h>
 

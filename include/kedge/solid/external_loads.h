@@ -1,0 +1,77 @@
+#ifndef kedge_solid_external_loads_h
+#define kedge_solid_external_loads_h
+
+#include <kedge/base/expression.h>
+#include <kedge/points/generation.h>
+#include <kedge/solid/parameters.h>
+#include <kedge/transfer/step_points.h>
+
+#include <unordered_map>
+
+namespace kedge
+{
+  /**
+   * The forces that act on material points from outside: body force, point
+   * loads, tractions. All are dead loads that move with their points.
+   */
+  template <int dim>
+  class ExternalLoads
+  {
+  public:
+    /**
+     * @param body_force       expressions of t [m/s^2]
+     * @param has_body_force   one per body
+     */
+    ExternalLoads(const std::array<std::string, dim>        &body_force,
+                  const std::vector<bool>                   &has_body_force,
+                  const std::vector<PointLoadParameters<dim>> &point_loads,
+                  const std::vector<TractionParameters<dim>>  &tractions,
+                  const std::map<std::string, double>       &constants);
+
+    /**
+     * Finds the points that carry loads among those just generated (all of
+     * them, on all ranks) and marks their state as loaded.
+     *
+     * @param body_names one per body
+     * @throws UserError if a traction finds no exposed face
+     */
+    void
+    attach(std::vector<GeneratedPoint<dim>> &points, const std::vector<std::string> &body_names);
+
+    /** True if there is no load at all: force() need not be called. */
+    bool
+    empty() const;
+
+    /** Force on each slot at time @p t [N]. */
+    void
+    force(const StepPoints<dim>               &points,
+          const double                         t,
+          std::vector<dealii::Tensor<1, dim>> &forces) const;
+
+  private:
+    struct Share
+    {
+      unsigned int load;   ///< index into force_expressions
+      double       factor; ///< part of the force, or area of a traction [m^2]
+    };
+
+    void
+    attach_point_load(const unsigned int                load,
+                      std::vector<GeneratedPoint<dim>> &points,
+                      const std::vector<std::string>   &body_names);
+    void
+    attach_traction(const unsigned int                traction,
+                    std::vector<GeneratedPoint<dim>> &points,
+                    const std::vector<std::string>   &body_names);
+
+    std::array<Expression, std::size_t(dim)>              body_force;
+    std::vector<bool>                                     has_body_force;
+    std::vector<PointLoadParameters<dim>>                 point_loads;
+    std::vector<TractionParameters<dim>>                  tractions;
+    std::map<std::string, double>                         constants;
+    std::vector<std::array<Expression, std::size_t(dim)>> load_expressions;
+    std::unordered_map<std::uint64_t, std::vector<Share>> shares; ///< by id of the point
+  };
+} // namespace kedge
+
+#endif

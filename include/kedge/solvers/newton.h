@@ -1,0 +1,66 @@
+#ifndef kedge_solvers_newton_h
+#define kedge_solvers_newton_h
+
+#include <kedge/solvers/linear_solver.h>
+#include <kedge/solvers/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace kedge
+{
+  /** How a Newton iteration ended; never an exception. */
+  struct NewtonReport
+  {
+    bool                converged         = false;
+    unsigned int        iterations        = 0; ///< corrections solved for
+    unsigned int        linear_iterations = 0;
+    std::string         cause;                 ///< of a failure: what, where
+    std::vector<double> residual_norms;        ///< before the first and after each correction
+    std::vector<double> correction_norms;
+  };
+
+  /** A non-linear system r(u) = 0 as Newton's method sees it. All calls are collective. */
+  class NewtonProblem
+  {
+  public:
+    struct Evaluation
+    {
+      bool        ok            = true;
+      double      residual_norm = 0.; ///< 2-norm over the free components
+      /** Size of the terms that cancel in the residual: its round-off is a fraction of this. */
+      double      scale = 0.;
+      std::string cause; ///< if !ok: which point, what happened
+    };
+
+    virtual ~NewtonProblem() = default;
+
+    /** The residual at the present u. */
+    virtual Evaluation
+    evaluate() = 0;
+
+    /** Solves for the correction at the present u and gives its 2-norm. */
+    virtual LinearStatus
+    solve_correction(double &norm) = 0;
+
+    /** u += factor * correction. */
+    virtual void
+    apply_correction(const double factor) = 0;
+
+    /** Goes to a safer starting point than the predictor; false if there is none left. */
+    virtual bool
+    restart_safely() = 0;
+  };
+
+  /**
+   * Newton's method with the criterion (3.185),
+   *   |r_k| |du_k| / (|r_0| |du_1|) < tolerance,
+   * made safe against small first steps: a residual at the round-off of its
+   * own terms is converged too. A correction that leads to an inadmissible
+   * state (det F <= 0, not finite) is halved.
+   */
+  NewtonReport
+  solve_newton(NewtonProblem &problem, const NewtonParameters &parameters);
+} // namespace kedge
+
+#endif

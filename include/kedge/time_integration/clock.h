@@ -1,0 +1,101 @@
+#ifndef kedge_time_integration_clock_h
+#define kedge_time_integration_clock_h
+
+#include <kedge/time_integration/parameters.h>
+
+#include <cstdint>
+
+namespace kedge
+{
+  /**
+   * Simulated time and the size of the next step. The nominal step is halved
+   * when an attempt is rejected and doubled again, up to the nominal one,
+   * after a few accepted steps. Steps end exactly at the break times and at
+   * the end.
+   */
+  class Clock
+  {
+  public:
+    explicit Clock(const TimeParameters &parameters);
+
+    /** The step that the scene asks for at this moment, before any cuts [s]. */
+    void
+    set_nominal_step(const double step);
+
+    double
+    time() const
+    {
+      return time_;
+    }
+
+    std::uint64_t
+    n_steps() const
+    {
+      return n_steps_;
+    }
+
+    bool
+    finished() const
+    {
+      return time_ >= end;
+    }
+
+    /** The next step [s]; shortened to land on a break time or the end. */
+    double
+    step_size() const;
+
+    /** The time at which the next step ends, exactly a break time where it lands on one. */
+    double
+    next_time() const;
+
+    /**
+     * Halves the step.
+     *
+     * @return false if it would fall below the floor
+     */
+    bool
+    cut_step();
+
+    /** Goes to next_time(). */
+    void
+    advance();
+
+    /** The smallest step allowed [s]. */
+    double
+    floor() const
+    {
+      return nominal * minimum_factor;
+    }
+
+    /** What a checkpoint keeps. */
+    struct State
+    {
+      double        time, nominal;
+      std::uint64_t n_steps, cuts, accepted_since_cut;
+    };
+
+    State
+    state() const
+    {
+      return {time_, nominal, n_steps_, cuts, accepted_since_cut};
+    }
+
+    void
+    restore(const State &state);
+
+  private:
+    double
+    next_target() const;
+
+    double              end;
+    double              minimum_factor;
+    std::vector<double> break_times;
+    double              time_;
+    double              nominal            = 0.;
+    std::uint64_t       n_steps_           = 0;
+    std::uint64_t       cuts               = 0;
+    std::uint64_t       accepted_since_cut = 0;
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,69 @@
+#ifndef kedge_transfer_velocity_mapping_h
+#define kedge_transfer_velocity_mapping_h
+
+#include <kedge/grid/node_conditions.h>
+#include <kedge/solvers/linear_solver.h>
+#include <kedge/transfer/equation_system.h>
+#include <kedge/transfer/node_sums.h>
+#include <kedge/transfer/parameters.h>
+
+namespace kedge
+{
+  /**
+   * The point-to-grid mapping (3.163) of velocities and accelerations,
+   *   sum_B M~_AB v_B = sum_p m N_A v_p,
+   * solved for the free components; prescribed components have their given
+   * value. It is the projection, in the mass norm, onto what the grid can do.
+   */
+  template <int dim>
+  class VelocityMapping
+  {
+  public:
+    /**
+     * Announces the nodes, conditions and effective mass of a step.
+     *
+     * @param new_pattern true if nodes or conditions differ from the last step
+     */
+    void
+    reinit(const BackgroundGrid<dim> &grid,
+           const ActiveNodes<dim>    &nodes,
+           const NodeConditions<dim> &conditions,
+           NodeMatrix<dim>           &mass,
+           const bool                 new_pattern);
+
+    /**
+     * Solves for nodal values. On entry @p nodal holds the prescribed
+     * values, on return all of them, ghosts included; @p momentum holds
+     * sum_p m N_A q_p at the owned nodes.
+     */
+    LinearStatus
+    solve(const BackgroundGrid<dim>       &grid,
+          const ActiveNodes<dim>          &nodes,
+          const NodeMatrix<dim>           &mass,
+          const std::vector<double>       &momentum,
+          std::vector<double>             &nodal);
+
+  private:
+    /** One set of equations; components with the same free nodes share it. */
+    struct Component
+    {
+      std::vector<unsigned char>    is_free;
+      EquationSystem<dim>           equations;
+      std::unique_ptr<LinearSolver> solver;
+      SparseSystem                  shifted; ///< with a slightly larger diagonal, if needed
+      bool                          is_shifted = false;
+    };
+
+    LinearStatus
+    factorise(Component &component);
+    LinearStatus
+    solve_component(Component                 &component,
+                    const std::vector<double> &right_side,
+                    std::vector<double>       &solution);
+
+    std::vector<Component>                       components;
+    std::array<unsigned int, std::size_t(dim)>   component_of_direction;
+  };
+} // namespace kedge
+
+#endif

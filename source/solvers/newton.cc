@@ -1,0 +1,101 @@
+#include <kedge/solvers/newton.h>
+
+#include <cmath>
+
+namespace kedge
+{
+  namespace
+  {
+    constexpr unsigned int most_halvings = 8;
+
+    /** A residual below this part of its terms is round-off. */
+    constexpr double round_off = 1e-14;
+
+    /** A residual that has grown by this factor will not come back. */
+    constexpr double divergence = 1e8;
+
+    std::string
+    iteration_text(const unsigned int iteration)
+    {
+      return " (Newton iteration " + std::to_string(iteration) + ")";
+    }
+
+    /** Applies the correction, halved until the state is admissible. */
+    NewtonProblem::Evaluation
+    advance(NewtonProblem &problem)
+    {
+      problem.apply_correction(1.);
+      NewtonProblem::Evaluation evaluation = problem.evaluate();
+      double                    factor     = 1.;
+      for (unsigned int k = 0; k < most_halvings && !evaluation.ok; ++k)
+        {
+          factor *= 0.5;
+          problem.apply_correction(-factor);
+          evaluation = problem.evaluate();
+        }
+      return evaluation;
+    }
+  } // namespace
+
+
+
+  NewtonReport
+  solve_newton(NewtonProblem &problem, const NewtonParameters &parameters)
+  {
+    NewtonReport              report;
+    NewtonProblem::Evaluation evaluation = problem.evaluate();
+    while (!evaluation.ok && problem.restart_safely())
+      evaluation = problem.evaluate();
+    if (!evaluation.ok)
+      {
+        report.cause = evaluation.cause + " before the first Newton iteration";
+        return report;
+      }
+
+    const double first_residual  = evaluation.residual_norm;
+    double       first_product   = 0.;
+    report.residual_norms        = {first_residual};
+    const auto at_round_off      = [&]() {
+      return evaluation.residual_norm <= round_off * evaluation.scale;
+    };
+
+    while (report.iterations < parameters.max_iterations)
+      {
+        double             correction_norm = 0.;
+        const LinearStatus linear          = problem.solve_correction(correction_norm);
+        ++report.iterations;
+        report.linear_iterations += linear.iterations;
+        if (!linear.success || !std::isfinite(correction_norm))
+          {
+            report.cause = (linear.success ? "the linear solver gave a value that is not finite" :
+                                             linear.cause) +
+                           iteration_text(report.iterations);
+            return report;
+          }
+        evaluation = advance(problem);
+        report.residual_norms.push_back(evaluation.residual_norm);
+        report.correction_norms.push_back(correction_norm);
+        if (!evaluation.ok)
+          {
+            report.cause = evaluation.cause + iteration_text(report.iterations);
+            return report;
+          }
+        if (report.iterations == 1)
+          first_product = first_residual * correction_norm;
+        const double product = evaluation.residual_norm * correction_norm;
+        if (product < parameters.tolerance * first_product || at_round_off())
+          {
+            report.converged = true;
+            return report;
+          }
+        if (evaluation.residual_norm > divergence * first_residual && report.iterations > 2)
+          {
+            report.cause = "the residual grew without bound" + iteration_text(report.iterations);
+            return report;
+          }
+      }
+    report.cause = "no convergence in " + std::to_string(parameters.max_iterations) +
+                   " Newton iterations";
+    return report;
+  }
+} // namespace kedge

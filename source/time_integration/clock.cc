@@ -1,0 +1,104 @@
+#include <kedge/time_integration/clock.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Accepted steps after which a cut step is doubled again. */
+    constexpr unsigned int steps_before_growth = 3;
+
+    /** A remainder of less than this part of a step is not worth a step of its own. */
+    constexpr double step_tolerance = 1e-6;
+  } // namespace
+
+
+
+  Clock::Clock(const TimeParameters &parameters)
+    : end(parameters.end)
+    , minimum_factor(parameters.minimum_step_factor)
+    , break_times(parameters.break_times)
+    , time_(parameters.start)
+  {
+    std::sort(break_times.begin(), break_times.end());
+  }
+
+
+
+  void
+  Clock::set_nominal_step(const double step)
+  {
+    nominal = step;
+  }
+
+
+
+  double
+  Clock::next_target() const
+  {
+    for (const double t : break_times)
+      if (t > time_)
+        return std::min(t, end);
+    return end;
+  }
+
+
+
+  double
+  Clock::step_size() const
+  {
+    return next_time() - time_;
+  }
+
+
+
+  double
+  Clock::next_time() const
+  {
+    const double step   = std::ldexp(nominal, -static_cast<int>(cuts));
+    const double target = next_target();
+    return target - time_ < step * (1. + step_tolerance) ? target : time_ + step;
+  }
+
+
+
+  bool
+  Clock::cut_step()
+  {
+    accepted_since_cut = 0;
+    // a step shortened by a target is cut below itself, not below the nominal one
+    const double present = step_size();
+    do
+      ++cuts;
+    while (std::ldexp(nominal, -static_cast<int>(cuts)) > 0.75 * present);
+    return std::ldexp(nominal, -static_cast<int>(cuts)) >= floor() * (1. - step_tolerance);
+  }
+
+
+
+  void
+  Clock::advance()
+  {
+    time_ = next_time();
+    ++n_steps_;
+    if (cuts > 0 && ++accepted_since_cut >= steps_before_growth)
+      {
+        --cuts;
+        accepted_since_cut = 0;
+      }
+  }
+
+
+
+  void
+  Clock::restore(const State &state)
+  {
+    time_              = state.time;
+    nominal            = state.nominal;
+    n_steps_           = state.n_steps;
+    cuts               = state.cuts;
+    accepted_since_cut = state.accepted_since_cut;
+  }
+} // namespace kedge
