@@ -240,6 +240,19 @@ namespace kedge
 
 
 
+  std::vector<std::string>
+  Expression::function_names()
+  {
+    mu::Parser parser;
+    define_functions(parser);
+    std::vector<std::string> names;
+    for (const auto &function : parser.GetFunDef())
+      names.push_back(function.first);
+    return names;
+  }
+
+
+
   double
   evaluate_constant(const std::string &text, const std::map<std::string, double> &constants)
   {
