@@ -187,7 +187,10 @@ namespace kedge
           known += variable + ", ";
         for (const auto &constant : constants)
           known += constant.first + ", ";
-        throw UserError("The expression '" + formula + "' cannot be read: " + error.GetMsg() +
+        std::string cause = error.GetMsg();
+        if (!cause.empty() && cause.back() != '.')
+          cause += '.';
+        throw UserError("The expression '" + formula + "' cannot be read: " + cause +
                         " Known names: " + known + "pi.");
       }
     if (!std::isfinite(constant_value))

@@ -1,7 +1,10 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/scene/parameter_file.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -40,29 +43,37 @@ namespace
     });
   }
 
-  /** A folder that goes when the test ends; one per process. */
+  /** A folder of all ranks that goes when the test ends. */
   class Folder
   {
   public:
     Folder()
       : path(std::filesystem::temp_directory_path() /
-             ("kedge_parameter_file_" + std::to_string(::getpid())))
+             ("kedge_parameter_file_" +
+              std::to_string(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, ::getpid()))))
     {
-      std::filesystem::create_directories(path / "parts");
+      if (is_first)
+        std::filesystem::create_directories(path / "parts");
     }
 
     ~Folder()
     {
-      std::filesystem::remove_all(path);
+      if (is_first)
+        std::filesystem::remove_all(path);
     }
 
     std::string
     write(const std::string &name, const std::string &text) const
     {
-      std::ofstream(path / name) << text;
+      if (is_first)
+        std::ofstream(path / name) << text;
       return (path / name).string();
     }
 
+  private:
+    const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+
+  public:
     const std::filesystem::path path;
   };
 } // namespace

@@ -530,7 +530,7 @@ TEST(SceneRead, WrongValuesAreAnsweredWithWhatIsAllowed)
     {"Time/End", "1", "later than Start = 1"},
     {"Time/Step", "0", "greater than 0"},
     {"Time/Step", "cfl", "write for example 15 cfl"},
-    {"Time/Step", "15 clf", "15 clf"},
+    {"Time/Step", "15 clf", "FACTOR initial cfl"},
     {"Time/Break times", "0.5", "later than Start"},
     {"Time/Break times", "4", "not after End"},
     {"Time/Smallest step factor", "2", "at most 1"},
