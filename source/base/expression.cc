@@ -187,7 +187,10 @@ namespace kedge
           known += variable + ", ";
         for (const auto &constant : constants)
           known += constant.first + ", ";
-        throw UserError("The expression '" + formula + "' cannot be read: " + error.GetMsg() +
+        std::string cause = error.GetMsg();
+        if (!cause.empty() && cause.back() != '.')
+          cause += '.';
+        throw UserError("The expression '" + formula + "' cannot be read: " + cause +
                         " Known names: " + known + "pi.");
       }
     if (!std::isfinite(constant_value))
@@ -236,6 +239,19 @@ namespace kedge
   Expression::text() const
   {
     return formula;
+  }
+
+
+
+  std::vector<std::string>
+  Expression::function_names()
+  {
+    mu::Parser parser;
+    define_functions(parser);
+    std::vector<std::string> names;
+    for (const auto &function : parser.GetFunDef())
+      names.push_back(function.first);
+    return names;
   }
 
 

@@ -129,8 +129,14 @@ namespace kedge
                   required,
                   allow.number(Range::positive()),
                   "Mass per volume of the undeformed body [kg/m^3]."},
-                 {"Young's modulus", required, allow.number(Range::positive()), "E [Pa]."},
-                 {"Poisson's ratio", required, allow.number(poisson), "nu [-]."}}};
+                 {"Young's modulus",
+                  required,
+                  allow.number(Range::positive()),
+                  "Stiffness in tension, E [Pa]."},
+                 {"Poisson's ratio",
+                  required,
+                  allow.number(poisson),
+                  "Lateral contraction over extension, nu [-]."}}};
       }
 
       SectionDeclaration
@@ -159,7 +165,7 @@ namespace kedge
            {"Initial velocity",
             per_direction("0", "; "),
             allow.expressions(coordinates("xyz"), coordinate_words("xyz")),
-            "At the start [m/s]."},
+            "Velocity at the start [m/s]; x, y, z is the place at the start."},
            {"Body force", "true", allow.truth(), "Whether the section Body force acts on it."}}};
       }
 
@@ -202,10 +208,13 @@ namespace kedge
           "Point loads",
           "Dead forces on the material points nearest to a place.",
           SectionKind::named,
-          {{"Body", required, allow.text("the name of a section of Bodies"), "Whose points."},
+          {{"Body",
+            required,
+            allow.text("the name of a section of Bodies"),
+            "The body that carries the force."},
            {"Place", required, allow.vector(), "Place in the initial configuration [m]."},
            {"Points", "1", allow.whole_number(1), "How many points share the force equally [-]."},
-           {"Force", required, allow.expressions({"t"}, "t"), "In all [N; N/m in 2D]."}}};
+           {"Force", required, allow.expressions({"t"}, "t"), "The whole force [N; N/m in 2D]."}}};
       }
 
       SectionDeclaration
@@ -214,8 +223,11 @@ namespace kedge
         return {"Tractions",
                 "Dead loads on the outer faces of a body that look to one side.",
                 SectionKind::named,
-                {{"Body", required, allow.text("the name of a section of Bodies"), "Whose faces."},
-                 {"Side", required, allow.side(), "To where the faces look."},
+                {{"Body",
+                  required,
+                  allow.text("the name of a section of Bodies"),
+                  "The body that carries the load."},
+                 {"Side", required, allow.side(), "The side to which the faces look."},
                  {"Where",
                   "",
                   allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
@@ -249,8 +261,8 @@ namespace kedge
                           "generalised-alpha"}),
             "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
             "only counts the load."},
-           {"Start", "0", allow.number(), "[s]."},
-           {"End", required, allow.number(), "[s]."},
+           {"Start", "0", allow.number(), "When the run starts [s]."},
+           {"End", required, allow.number(), "When it ends [s]."},
            {"Step",
             required,
             allow.step(),
@@ -285,7 +297,7 @@ namespace kedge
           {{"Tolerance",
             "1e-11",
             allow.number(Range::positive()),
-            "Residual relative to the acting forces [-]."},
+            "Of the residual force, relative to the forces that act [-]."},
            {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."}}};
       }
 
@@ -393,19 +405,21 @@ namespace kedge
       SectionDeclaration
       probes() const
       {
-        return {
-          "Probes",
-          "What is followed in probes.csv. Either Place or Face says what.",
-          SectionKind::named,
-          {{"Body", "", allow.text("the name of a section of Bodies").or_empty(), "Empty: any."},
-           {"Place",
-            "",
-            allow.vector().or_empty(),
-            "The material point nearest to it at the start is followed [m]."},
-           {"Face",
-            "",
-            allow.side().or_empty(),
-            "The mean over the points at the body's outermost face on this side."}}};
+        return {"Probes",
+                "What is followed in probes.csv. Either Place or Face says what.",
+                SectionKind::named,
+                {{"Body",
+                  "",
+                  allow.text("the name of a section of Bodies").or_empty(),
+                  "The body that is followed; empty: any."},
+                 {"Place",
+                  "",
+                  allow.vector().or_empty(),
+                  "The material point nearest to it at the start is followed [m]."},
+                 {"Face",
+                  "",
+                  allow.side().or_empty(),
+                  "The mean over the points at the body's outermost face on this side."}}};
       }
 
       SectionDeclaration

@@ -62,19 +62,48 @@ namespace kedge
     void
     check_constant_name(const ParameterEntry &entry)
     {
-      const std::vector<std::string> taken = {"x", "y", "z", "t", "X", "Y", "Z", "pi"};
+      std::vector<std::string> taken = Expression::function_names();
+      taken.insert(taken.end(), {"x", "y", "z", "t", "X", "Y", "Z", "pi"});
       const std::string place = entry.origin.describe() + ": Constants/" + entry.name + ": ";
       if (std::find(taken.begin(), taken.end(), entry.name) != taken.end())
-        throw UserError(place + "the names x, y, z, t, X, Y, Z and pi are taken.");
+        throw UserError(
+          place + "this name is taken, as are x, y, z, t, X, Y, Z, pi and those of all functions.");
       try
         {
           Expression(entry.name, {}, {{entry.name, 0.}});
         }
       catch (const UserError &)
         {
-          throw UserError(place + "this cannot be the name of a constant; it needs letters, digits "
-                                  "and _, no digit first, and may not be a function's name.");
+          throw UserError(place +
+                          "the name of a constant holds letters, digits and _, no digit first.");
         }
+    }
+
+    /** Says why the constants @p entries cannot be worked out from the known ones. */
+    [[noreturn]] void
+    refuse_constants(const std::vector<ParameterEntry> &entries,
+                     std::map<std::string, double>      constants)
+    {
+      std::vector<std::string> names;
+      for (const ParameterEntry &entry : entries)
+        {
+          names.push_back(entry.name);
+          constants[entry.name] = 1; // any number: is it only the value that is missing?
+        }
+      const auto place = [](const ParameterEntry &entry) {
+        return entry.origin.describe() + ": Constants/" + entry.name + " = " + entry.value + ": ";
+      };
+      for (const ParameterEntry &entry : entries)
+        try
+          {
+            evaluate_constant(entry.value, constants);
+          }
+        catch (const UserError &error)
+          {
+            throw UserError(place(entry) + error.what());
+          }
+      throw UserError(place(entries.front()) + "Of the constants " + join(names) +
+                      " each needs another of them.");
     }
   } // namespace
 
@@ -92,25 +121,20 @@ namespace kedge
         }
 
     std::map<std::string, double> constants;
-    std::string                   first_problem;
     while (!unknown.empty())
       {
         std::vector<ParameterEntry> still_unknown;
-        first_problem.clear();
         for (const ParameterEntry &entry : unknown)
           try
             {
               constants[entry.name] = evaluate_constant(entry.value, constants);
             }
-          catch (const UserError &error)
+          catch (const UserError &)
             {
               still_unknown.push_back(entry);
-              if (first_problem.empty())
-                first_problem = entry.origin.describe() + ": Constants/" + entry.name + " = " +
-                                entry.value + ": " + error.what();
             }
         if (still_unknown.size() == unknown.size())
-          throw UserError(first_problem);
+          refuse_constants(unknown, constants);
         unknown = still_unknown;
       }
     return constants;
@@ -324,7 +348,7 @@ namespace kedge
       if (opened.path == section)
         return opened.origin.describe();
     for (const ParameterEntry &entry : file.entries)
-      if (entry.section == section)
+      if (!section.empty() && entry.section == section)
         return entry.origin.describe();
     return file.file_name == "-" ? "standard input" : file.file_name;
   }

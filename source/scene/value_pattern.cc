@@ -27,14 +27,15 @@ namespace kedge
   ValuePattern::problem(const std::string &value) const
   {
     if (value.empty())
-      return may_be_empty ? "" : "A value must be given: " + allowed + ".";
+      return may_be_empty ? "" : "It must be given: " + allowed + ".";
     try
       {
         parse(value);
       }
     catch (const UserError &error)
       {
-        return error.what();
+        const std::string problem = error.what();
+        return problem.rfind("It must", 0) == 0 ? problem : problem + " Allowed: " + allowed + ".";
       }
     return "";
   }

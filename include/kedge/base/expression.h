@@ -61,6 +61,10 @@ namespace kedge
     const std::string &
     text() const;
 
+    /** The names of all functions, which no constant may take. */
+    static std::vector<std::string>
+    function_names();
+
   private:
     class Parsers;
 

@@ -30,7 +30,7 @@ namespace kedge
     ValuePattern
     or_empty() const;
 
-    /** What is wrong with @p value; an empty text if nothing is. */
+    /** What is wrong with @p value and what is allowed; an empty text if nothing is wrong. */
     std::string
     problem(const std::string &value) const;
 
