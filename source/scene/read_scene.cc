@@ -327,7 +327,7 @@ namespace kedge
       const SectionReader section(reader, {"Mapping"});
       TransferParameters  transfer;
       transfer.velocity_mapping =
-        section.text("Velocity") == "pic" ? VelocityMapping::pic : VelocityMapping::flip;
+        section.text("Velocity") == "pic" ? VelocityUpdate::pic : VelocityUpdate::flip;
       transfer.lumping = section.number("Lumping");
       transfer.audit   = section.truth("Audit");
       return transfer;

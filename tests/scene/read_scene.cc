@@ -337,7 +337,7 @@ TEST(SceneRead, TimeAndSolvers)
   EXPECT_EQ(scene.linear_solver.kind, LinearSolverKind::krylov_ilu);
   EXPECT_EQ(scene.linear_solver.tolerance, 1e-12);
   EXPECT_EQ(scene.linear_solver.max_iterations, 77u);
-  EXPECT_EQ(scene.transfer.velocity_mapping, VelocityMapping::pic);
+  EXPECT_EQ(scene.transfer.velocity_mapping, VelocityUpdate::pic);
   EXPECT_EQ(scene.transfer.lumping, 0.5);
   EXPECT_TRUE(scene.transfer.audit);
 }
@@ -419,7 +419,7 @@ TEST(SceneRead, StepIsSecondsOrAFactor)
   EXPECT_EQ(read_scene<2>(file).time.step_kind, StepSizeKind::fixed);
   file.set("Time/Step = 2*h cfl");
   EXPECT_EQ(read_scene<2>(file).time.cfl_factor, 2);
-  EXPECT_EQ(read_scene<2>(file).time.step_kind, StepSizeKind::cfl_adaptive);
+  EXPECT_EQ(read_scene<2>(file).time.step_kind, StepSizeKind::cfl_nodal);
 }
 
 TEST(SceneRead, OptionsWinOverTheFile)
