@@ -7,6 +7,7 @@
 #include <kedge/io/vtu_file.h>
 
 #include <deal.II/base/hdf5.h>
+#include <deal.II/lac/full_matrix.h>
 
 #include <gtest/gtest.h>
 
@@ -138,6 +139,11 @@ TEST(IoPointsOutputMpi, PiecesAndHdf5OverTheRanks)
   ASSERT_EQ(ids.size(), n_all);
   for (std::size_t p = 0; p < n_all; ++p)
     EXPECT_EQ(ids[p], static_cast<double>(p));
+  const auto stress = file.open_dataset("cauchy_stress").read<dealii::FullMatrix<double>>();
+  ASSERT_EQ(stress.n(), 9u); // xx xy xz yx ..: all nine
+  const auto tau = test::make_points<3>(1, 7)[0].state.kirchhoff_stress / 2.; // det F = 2
+  for (unsigned int ij = 0; ij < 9; ++ij)
+    EXPECT_EQ(stress(7, ij), tau[ij / 3][ij % 3]);
   EXPECT_EQ(file.open_dataset("deformation_gradient").get_dimensions()[1], 9u);
   MPI_Barrier(MPI_COMM_WORLD);
 }
