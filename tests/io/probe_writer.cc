@@ -44,6 +44,7 @@ TEST(IoProbeWriterMpi, FollowsPointsAndMeansOverTheRanks)
     probes.write(0.5, points);
     probes.write(1.5, points);
   }
+  MPI_Barrier(MPI_COMM_WORLD); // rank 0 has written
   const CsvTable table = read_csv(scratch / "probes.csv");
   EXPECT_EQ(*table.find("time"), (std::vector<double>{0.5, 1.5}));
   EXPECT_EQ(table.find("tip.position_x")->at(0), 3.); // make_points: x = id
