@@ -27,8 +27,8 @@ PHYSICS = MAY_INCLUDE["stress"] | {"stress"}
 MAY_INCLUDE["solid"] = PHYSICS
 MAY_INCLUDE["porous"] = PHYSICS
 MAY_INCLUDE["contact"] = PHYSICS - {"stress"}
-# scene sees nothing of the rooms but their parameters and the geometry it builds
-MAY_INCLUDE["scene"] = {"points"}
+# scene sees nothing of the rooms but their parameters
+MAY_INCLUDE["scene"] = set()
 MAY_INCLUDE["io"] = PHYSICS | {"scene", "solid", "porous", "contact"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) | {"io", "scene"}
 
