@@ -104,12 +104,8 @@ function(kedge_add_scene_test name scene)
     --kedge $<TARGET_FILE:kedge> --mpirun ${KEDGE_MPIRUN} --root ${PROJECT_SOURCE_DIR}
     --output ${CMAKE_CURRENT_BINARY_DIR}/scenes/${name} --ranks ${arg_RANKS}
     --expect-exit ${arg_EXPECT_EXIT})
-  foreach(set IN LISTS arg_SET)
-    list(APPEND command "--set=${set}")
-  endforeach()
-  foreach(option IN LISTS arg_OPTIONS)
-    list(APPEND command "--option=${option}")
-  endforeach()
+  kedge_append_options(command --set ${arg_SET})
+  kedge_append_options(command --option ${arg_OPTIONS})
   foreach(key STDIN EXPECT_STDERR EXPECT_STDOUT COMPARE_RANKS)
     if(DEFINED arg_${key})
       string(TOLOWER "--${key}=" option)
@@ -122,6 +118,17 @@ function(kedge_add_scene_test name scene)
   endif()
   kedge_add_test(${name} COMMAND ${command} ${scene}
     LABELS scene ${arg_LABELS} RANKS ${arg_RANKS} TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# Appends option=value to the list for each value; a value may hold semicolons.
+function(kedge_append_options list option)
+  foreach(number RANGE 2 ${ARGC})
+    if(number LESS ARGC)
+      string(REPLACE ";" "\\;" value "${ARGV${number}}")
+      list(APPEND ${list} "${option}=${value}")
+    endif()
+  endforeach()
+  set(${list} "${${list}}" PARENT_SCOPE)
 endfunction()
 
 # Of kedge_add_scene_test: stops CMake if the test could not fail.
@@ -152,9 +159,7 @@ function(kedge_add_restart_test name scene)
     --kedge $<TARGET_FILE:kedge> --mpirun ${KEDGE_MPIRUN} --root ${PROJECT_SOURCE_DIR}
     --output ${CMAKE_CURRENT_BINARY_DIR}/restart/${name} --ranks ${arg_RANKS}
     --kills ${arg_KILLS})
-  foreach(set IN LISTS arg_SET)
-    list(APPEND command "--set=${set}")
-  endforeach()
+  kedge_append_options(command --set ${arg_SET})
   kedge_add_test(${name} COMMAND ${command} ${scene}
     LABELS scene restart RANKS ${arg_RANKS} TIMEOUT ${arg_TIMEOUT})
 endfunction()
