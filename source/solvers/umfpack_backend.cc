@@ -10,7 +10,8 @@ namespace kedge
     class UmfpackBackend : public GatheredBackend
     {
     public:
-      UmfpackBackend()
+      explicit UmfpackBackend(const bool positive_definite)
+        : positive_definite(positive_definite)
       {
         umfpack_di_defaults(control);
         control[UMFPACK_IRSTEP] = 1;
@@ -59,6 +60,8 @@ namespace kedge
         if (status != UMFPACK_OK)
           return LinearStatus::failure("UMFPACK could not factorise the matrix (status " +
                                        std::to_string(status) + ")");
+        if (info[UMFPACK_RCOND] < smallest_pivot(positive_definite))
+          return LinearStatus::failure("matrix singular to working precision", weakest_unknown());
         return {};
       }
 
@@ -113,6 +116,7 @@ namespace kedge
         return column_order[weakest];
       }
 
+      const bool    positive_definite;
       double        control[UMFPACK_CONTROL];
       void         *symbolic = nullptr;
       void         *numeric  = nullptr;
@@ -121,8 +125,8 @@ namespace kedge
   } // namespace
 
   std::unique_ptr<LinearSolver::Backend>
-  make_umfpack_backend()
+  make_umfpack_backend(const MatrixTraits &traits)
   {
-    return std::make_unique<UmfpackBackend>();
+    return std::make_unique<UmfpackBackend>(traits.positive_definite);
   }
 } // namespace kedge

@@ -6,12 +6,14 @@ namespace kedge
   {
     /**
      * Where points are too few to tell all nodal velocities apart the mass
-     * matrix is singular. Its diagonal is then raised by this part, and the
-     * solution is iterated back to the unchanged matrix: momentum and energy
-     * stay exact, the undetermined part stays small.
+     * matrix is singular. This part of the lumped mass is then added to its
+     * diagonal, and the solution is iterated back to the unchanged matrix:
+     * momentum and energy stay exact, the undetermined part stays small, also
+     * at nodes that hardly any mass reaches (their lumped mass, of the order
+     * m N, is far above their diagonal, m N^2).
      */
-    constexpr double       diagonal_shift       = 1e-12;
-    constexpr unsigned int n_shift_corrections  = 4;
+    constexpr double       lumped_shift        = 1e-12;
+    constexpr unsigned int n_shift_corrections = 4;
 
     std::vector<double>
     multiply(const SparseSystem &system, const std::vector<double> &x)
@@ -98,10 +100,16 @@ namespace kedge
     component.is_shifted = true;
     component.shifted    = component.equations.system();
     for (unsigned int i = 0; i < component.shifted.n_rows(); ++i)
-      for (std::int64_t k = component.shifted.row_start[i]; k < component.shifted.row_start[i + 1];
-           ++k)
-        if (component.shifted.column[k] == component.shifted.first_row + i)
-          component.shifted.value[k] *= 1. + diagonal_shift;
+      {
+        const std::int64_t begin = component.shifted.row_start[i];
+        const std::int64_t end   = component.shifted.row_start[i + 1];
+        double             lumped = 0.;
+        for (std::int64_t k = begin; k < end; ++k)
+          lumped += component.shifted.value[k];
+        for (std::int64_t k = begin; k < end; ++k)
+          if (component.shifted.column[k] == component.shifted.first_row + i)
+            component.shifted.value[k] += lumped_shift * lumped;
+      }
     return component.solver->factorise(component.shifted);
   }
 
