@@ -71,6 +71,10 @@ namespace kedge
 
     std::vector<unsigned int> key = cell;
     sort_by_key(key, grid.window().n_cells_total(), local_number);
+    n_cells = 0;
+    for (unsigned int k = 0; k < n; ++k)
+      if (k == 0 || cell[local_number[k]] != cell[local_number[k - 1]])
+        ++n_cells;
     for (unsigned int i = 0; i < n; ++i)
       key[i] = stencils[i].first_node;
     sort_by_key(key, grid.window().n_nodes_total(), local_number);
@@ -102,14 +106,13 @@ namespace kedge
     std::vector<Stencil<dim>>            stencils(n);
     std::vector<dealii::Point<dim>>      locations(n);
     std::vector<const PointState<dim> *> states(n);
-    std::vector<std::pair<unsigned int, std::uint64_t>> loaded_points;
-    points.for_each([&](const unsigned int i,
-                        const std::uint64_t       id,
+    std::vector<std::uint64_t>           ids(n);
+    points.for_each([&](const unsigned int        i,
+                        const std::uint64_t       point_id,
                         const dealii::Point<dim> &x,
                         const PointState<dim>    &state) {
       states[i]    = &state;
-      if (state.loaded != 0.)
-        loaded_points.emplace_back(i, id);
+      ids[i]       = point_id;
       locations[i] = x;
       body[i]      = static_cast<unsigned int>(state.body);
       cell[i]      = grid.window().cell_number(grid.lattice().cell_of(x));
@@ -122,27 +125,30 @@ namespace kedge
     mass.resize(n);
     volume.resize(n);
     location.resize(n);
+    determinant.resize(n);
     velocity.resize(n);
     acceleration.resize(n);
     stress_state.resize(n);
     slot_of.resize(n);
+    id.resize(n);
+    loaded.clear();
     for (unsigned int slot = 0; slot < n; ++slot)
       {
         const unsigned int     i     = local_number[slot];
         const PointState<dim> &state = *states[i];
         slot_of[i]                   = slot;
+        id[slot]                     = ids[i];
+        if (state.loaded != 0.)
+          loaded.push_back(slot);
         stencil[slot]                = stencils[i];
         mass[slot]                   = state.mass;
         volume[slot]                 = state.reference_volume;
         location[slot]               = locations[i];
+        determinant[slot]            = dealii::determinant(state.deformation_gradient);
         velocity[slot]               = state.velocity;
         acceleration[slot]           = state.acceleration;
         stress_state[slot]           = make_stress_state(state);
       }
-    loaded.clear();
-    for (const auto &[i, id] : loaded_points)
-      loaded.emplace_back(slot_of[i], id);
-    std::sort(loaded.begin(), loaded.end());
   }
 
 
