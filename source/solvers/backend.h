@@ -22,7 +22,7 @@ namespace kedge
   make_banded_backend(const MatrixTraits &traits);
 
   std::unique_ptr<LinearSolver::Backend>
-  make_umfpack_backend(const MatrixTraits &traits);
+  make_umfpack_backend();
 
   std::unique_ptr<LinearSolver::Backend>
   make_krylov_backend(const LinearSolverParameters &parameters,

@@ -84,7 +84,7 @@ namespace kedge
         for (int i = 0; i < n; ++i)
           {
             const double diagonal = band[std::size_t(i) * leading + top];
-            if (std::abs(cholesky ? diagonal * diagonal : diagonal) < smallest_pivot(cholesky))
+            if (std::abs(cholesky ? diagonal * diagonal : diagonal) < smallest_pivot)
               return LinearStatus::failure("matrix singular to working precision", i);
           }
         return {};

@@ -22,14 +22,9 @@ namespace kedge
   protected:
     /**
      * A pivot of the scaled matrix (unit diagonal) below this is taken for
-     * zero: the solution would be made of round-off. Callers of positive
-     * definite systems can raise the diagonal and do so in time.
+     * zero: the solution would have no correct digit.
      */
-    static constexpr double
-    smallest_pivot(const bool positive_definite)
-    {
-      return positive_definite ? 1e-13 : 1e-15;
-    }
+    static constexpr double smallest_pivot = 1e-15;
 
     /** The gathered, scaled matrix; filled on rank 0 only. */
     struct Matrix

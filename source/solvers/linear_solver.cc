@@ -102,7 +102,7 @@ namespace kedge
             make_krylov_backend(parameters, traits, kind == LinearSolverKind::krylov_amg);
           break;
         default:
-          backend = make_umfpack_backend(traits);
+          backend = make_umfpack_backend();
       }
   }
 

@@ -10,8 +10,7 @@ namespace kedge
     class UmfpackBackend : public GatheredBackend
     {
     public:
-      explicit UmfpackBackend(const bool positive_definite)
-        : positive_definite(positive_definite)
+      UmfpackBackend()
       {
         umfpack_di_defaults(control);
         control[UMFPACK_IRSTEP] = 1;
@@ -60,7 +59,7 @@ namespace kedge
         if (status != UMFPACK_OK)
           return LinearStatus::failure("UMFPACK could not factorise the matrix (status " +
                                        std::to_string(status) + ")");
-        if (info[UMFPACK_RCOND] < smallest_pivot(positive_definite))
+        if (info[UMFPACK_RCOND] < smallest_pivot)
           return LinearStatus::failure("matrix singular to working precision", weakest_unknown());
         return {};
       }
@@ -116,7 +115,6 @@ namespace kedge
         return column_order[weakest];
       }
 
-      const bool    positive_definite;
       double        control[UMFPACK_CONTROL];
       void         *symbolic = nullptr;
       void         *numeric  = nullptr;
@@ -125,8 +123,8 @@ namespace kedge
   } // namespace
 
   std::unique_ptr<LinearSolver::Backend>
-  make_umfpack_backend(const MatrixTraits &traits)
+  make_umfpack_backend()
   {
-    return std::make_unique<UmfpackBackend>(traits.positive_definite);
+    return std::make_unique<UmfpackBackend>();
   }
 } // namespace kedge

@@ -50,14 +50,17 @@ namespace kedge
       std::vector<unsigned char>    is_free;
       EquationSystem<dim>           equations;
       std::unique_ptr<LinearSolver> solver;
-      SparseSystem                  shifted; ///< with a slightly larger diagonal, if needed
-      bool                          is_shifted = false;
+      SparseSystem                  raised; ///< with a slightly larger diagonal
+      bool                          is_factorised = false;
     };
 
     LinearStatus
     factorise(Component &component);
     LinearStatus
-    solve_component(Component                 &component,
+    solve_component(const BackgroundGrid<dim> &grid,
+                    const ActiveNodes<dim>    &nodes,
+                    const NodeMatrix<dim>     &mass,
+                    Component                 &component,
                     const std::vector<double> &right_side,
                     std::vector<double>       &solution);
 
