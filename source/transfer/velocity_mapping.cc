@@ -15,7 +15,7 @@ namespace kedge
     constexpr double       lumped_shift       = 1e-13;
     constexpr unsigned int most_corrections   = 6;
     constexpr double       relative_tolerance = 1e-15; ///< energy of a correction that ends them
-  } // namespace
+  }                                                    // namespace
 
 
 

@@ -37,11 +37,11 @@ namespace kedge
      * sum_p m N_A q_p at the owned nodes.
      */
     LinearStatus
-    solve(const BackgroundGrid<dim>       &grid,
-          const ActiveNodes<dim>          &nodes,
-          const NodeMatrix<dim>           &mass,
-          const std::vector<double>       &momentum,
-          std::vector<double>             &nodal);
+    solve(const BackgroundGrid<dim> &grid,
+          const ActiveNodes<dim>    &nodes,
+          const NodeMatrix<dim>     &mass,
+          const std::vector<double> &momentum,
+          std::vector<double>       &nodal);
 
   private:
     /** One set of equations; components with the same free nodes share it. */
@@ -64,8 +64,8 @@ namespace kedge
                     const std::vector<double> &right_side,
                     std::vector<double>       &solution);
 
-    std::vector<Component>                       components;
-    std::array<unsigned int, std::size_t(dim)>   component_of_direction;
+    std::vector<Component>                     components;
+    std::array<unsigned int, std::size_t(dim)> component_of_direction;
   };
 } // namespace kedge
 
