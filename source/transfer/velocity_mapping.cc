@@ -12,10 +12,12 @@ namespace kedge
      * stays small. It must be the lumped mass: at a node that hardly any mass
      * reaches it is of the order m N, far above the diagonal's m N^2.
      */
-    constexpr double       lumped_shift       = 1e-13;
+    constexpr double lumped_shift = 1e-13;
+
+    /** Corrections end at this part of the solution's energy, or at this number. */
+    constexpr double       relative_tolerance = 1e-15;
     constexpr unsigned int most_corrections   = 6;
-    constexpr double       relative_tolerance = 1e-15; ///< energy of a correction that ends them
-  }                                                    // namespace
+  } // namespace
 
 
 
