@@ -150,8 +150,6 @@ namespace kedge
     particle_to_grid(const double t, const double dt);
     void
     apply_external_forces(const double t);
-    void
-    predict(const double dt);
     std::string
     check_points();
     void
@@ -170,6 +168,7 @@ namespace kedge
     StepPoints<dim>      step_points;
     ActiveNodes<dim>     nodes;
     NodeConditions<dim>  conditions;
+    NodeTies<dim>        ties;
     ExternalLoads<dim>   loads;
     NodeMatrix<dim>      mass;
     VelocityMapping<dim> mapping;
@@ -183,7 +182,6 @@ namespace kedge
     double                              step_t    = 0.;
     double                              step_dt   = 0.;
     double                              step_work = 0.;
-    std::vector<double>                 nodal_mass; ///< lumped, owned and ghost nodes
     std::vector<dealii::Tensor<1, dim>> point_forces;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;
