@@ -40,6 +40,15 @@ patient_apt_get()
   done
 }
 
+# say_how_much PACKAGE...: what apt would download and unpack, if it says so.
+say_how_much()
+{
+  local line
+  $become LC_ALL=C apt-get --assume-no --no-install-recommends install "$@" 2>/dev/null |
+    grep '^Need to get\|^After this operation' |
+    while read -r line; do say "  $line"; done || true
+}
+
 # need PACKAGE...: installs those of the packages that are not there.
 need()
 {
@@ -59,6 +68,8 @@ need()
   patient_apt_get update ||
     say "the list of packages could not be renewed; trying with the one that is there"
   # shellcheck disable=SC2086  # the words of $missing are packages
+  say_how_much $missing
+  # shellcheck disable=SC2086
   patient_apt_get install --no-install-recommends $missing ||
     fail "apt could not install: $missing (its last words stand above)"
   rm -f "$apt_log"

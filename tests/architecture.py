@@ -1,4 +1,4 @@
-"""Holds the rules of the house: architecture.py ROOT [--arrows]
+"""Holds the rules of the house: architecture.py ROOT
 
 - the include arrows between the rooms, and no include cycles;
 - no file over 500 lines; no absolute path of somebody's home;
@@ -6,6 +6,7 @@
 - every scene in prm/ is run by a test or a benchmark.
 """
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -27,8 +28,8 @@ PHYSICS = MAY_INCLUDE["stress"] | {"stress"}
 MAY_INCLUDE["solid"] = PHYSICS
 MAY_INCLUDE["porous"] = PHYSICS
 MAY_INCLUDE["contact"] = PHYSICS - {"stress"}
-# scene sees nothing of the rooms but their parameters and the geometry it builds
-MAY_INCLUDE["scene"] = {"points"}
+# scene sees nothing of the rooms but their parameters
+MAY_INCLUDE["scene"] = set()
 MAY_INCLUDE["io"] = PHYSICS | {"scene", "solid", "porous", "contact"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) | {"io", "scene"}
 
@@ -40,13 +41,16 @@ HOME = re.compile(r"/(home|Users|root|work|tmp/[a-z])\b")
 
 def tracked_files(root):
     """The files of the repository: what git tracks or would; all if there is no git."""
-    listed = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard", "-z"],
-                            capture_output=True, text=True, check=False)
-    if listed.returncode == 0 and listed.stdout:
+    listed = None
+    if shutil.which("git"):
+        listed = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard", "-z"],
+                                capture_output=True, text=True, check=False)
+    if listed and listed.returncode == 0 and listed.stdout:
         files = [root / name for name in listed.stdout.split("\0") if name]
     else:
         files = [path for path in root.rglob("*")
-                 if not re.match(r"(build|output|\.git)", str(path.relative_to(root)))]
+                 if not re.match(r"(build|output|\.git/)", path.relative_to(root).as_posix())
+                 and "__pycache__" not in path.parts]
     return [path for path in files if path.is_file()]
 
 

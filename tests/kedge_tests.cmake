@@ -21,16 +21,28 @@ function(kedge_add_test name)
     FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
-# kedge_add_unit_tests(target SOURCES ... [PREFIX p])
+# kedge_add_unit_tests(target SOURCES ... [PREFIX p] [DEBUG library sources ...])
 # One executable of all sources; one CTest test for each GoogleTest suite in
 # them, because starting a process costs more than most suites. A suite whose
-# name ends in Mpi runs on one rank and, as NAME.2ranks, on two.
+# name ends in Mpi runs on one rank and, as NAME.2ranks, on two. With DEBUG
+# the tests do not use the library but what stands there, compiled without
+# optimisation and with all assertions.
 function(kedge_add_unit_tests target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PREFIX" "SOURCES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PREFIX" "SOURCES;DEBUG")
   add_executable(${target} ${arg_SOURCES})
-  target_link_libraries(${target} kedge::kedge GTest::gtest)
-  kedge_set_up_target(${target})
-  target_precompile_headers(${target} REUSE_FROM kedge_library)
+  if(arg_DEBUG)
+    target_sources(${target} PRIVATE ${arg_DEBUG} ${PROJECT_BINARY_DIR}/source/base/revision.cc)
+    target_include_directories(${target} PRIVATE
+      ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/include)
+    add_dependencies(${target} kedge_revision)
+    deal_ii_setup_target(${target} DEBUG)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
+  else()
+    target_link_libraries(${target} kedge::kedge)
+    kedge_set_up_target(${target})
+    target_precompile_headers(${target} REUSE_FROM kedge_library)
+  endif()
+  target_link_libraries(${target} GTest::gtest)
 
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${arg_SOURCES})
   kedge_find_suites(suites ${arg_SOURCES})
@@ -92,12 +104,8 @@ function(kedge_add_scene_test name scene)
     --kedge $<TARGET_FILE:kedge> --mpirun ${KEDGE_MPIRUN} --root ${PROJECT_SOURCE_DIR}
     --output ${CMAKE_CURRENT_BINARY_DIR}/scenes/${name} --ranks ${arg_RANKS}
     --expect-exit ${arg_EXPECT_EXIT})
-  foreach(set IN LISTS arg_SET)
-    list(APPEND command "--set=${set}")
-  endforeach()
-  foreach(option IN LISTS arg_OPTIONS)
-    list(APPEND command "--option=${option}")
-  endforeach()
+  kedge_append_options(command --set ${arg_SET})
+  kedge_append_options(command --option ${arg_OPTIONS})
   foreach(key STDIN EXPECT_STDERR EXPECT_STDOUT COMPARE_RANKS)
     if(DEFINED arg_${key})
       string(TOLOWER "--${key}=" option)
@@ -110,6 +118,17 @@ function(kedge_add_scene_test name scene)
   endif()
   kedge_add_test(${name} COMMAND ${command} ${scene}
     LABELS scene ${arg_LABELS} RANKS ${arg_RANKS} TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# Appends option=value to the list for each value; a value may hold semicolons.
+function(kedge_append_options list option)
+  foreach(number RANGE 2 ${ARGC})
+    if(number LESS ARGC)
+      string(REPLACE ";" "\\;" value "${ARGV${number}}")
+      list(APPEND ${list} "${option}=${value}")
+    endif()
+  endforeach()
+  set(${list} "${${list}}" PARENT_SCOPE)
 endfunction()
 
 # Of kedge_add_scene_test: stops CMake if the test could not fail.
@@ -140,9 +159,7 @@ function(kedge_add_restart_test name scene)
     --kedge $<TARGET_FILE:kedge> --mpirun ${KEDGE_MPIRUN} --root ${PROJECT_SOURCE_DIR}
     --output ${CMAKE_CURRENT_BINARY_DIR}/restart/${name} --ranks ${arg_RANKS}
     --kills ${arg_KILLS})
-  foreach(set IN LISTS arg_SET)
-    list(APPEND command "--set=${set}")
-  endforeach()
+  kedge_append_options(command --set ${arg_SET})
   kedge_add_test(${name} COMMAND ${command} ${scene}
     LABELS scene restart RANKS ${arg_RANKS} TIMEOUT ${arg_TIMEOUT})
 endfunction()

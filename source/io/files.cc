@@ -7,7 +7,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
-#include <iterator>
 #include <unistd.h>
 
 namespace kedge
@@ -102,10 +101,14 @@ namespace kedge
   std::string
   read_file(const std::filesystem::path &file)
   {
-    errno = 0;
+    std::error_code      error;
+    const std::uintmax_t n_bytes = std::filesystem::file_size(file, error); // fails for folders
+    if (error)
+      throw UserError("Cannot read '" + file.string() + "': " + error.message() + ".");
     std::ifstream in(file, std::ios::binary);
-    std::string   content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    if (!in.is_open() || in.bad())
+    std::string   content(n_bytes, '\0');
+    in.read(content.data(), static_cast<std::streamsize>(n_bytes));
+    if (!in)
       fail("read", file);
     return content;
   }

@@ -112,10 +112,32 @@ namespace kedge
     {
       const char *type = shape == FieldShape::scalar   ? "Scalar"
                          : shape == FieldShape::vector ? "Vector"
-                         : shape == FieldShape::tensor ? "Tensor"
-                                                       : "Tensor6";
+                                                       : "Tensor";
       return "<Attribute Name=\"" + name + "\" AttributeType=\"" + type + "\" Center=\"Node\">" +
              item + "</Attribute>\n";
+    }
+
+    /** Symmetric tensors go into HDF5 with all nine: readers of XDMF disagree on the order of six.
+     */
+    unsigned int
+    n_columns_of(const FieldShape shape)
+    {
+      return shape == FieldShape::symmetric_tensor ? 9 : n_values(shape);
+    }
+
+    template <int dim>
+    std::vector<double>
+    collect_columns(const PointField<dim> &field, const std::vector<PointRecord<dim>> &points)
+    {
+      const std::vector<double> values = collect(field, points);
+      if (field.shape != FieldShape::symmetric_tensor)
+        return values;
+      constexpr unsigned int place[9] =
+        {0, 3, 5, 3, 1, 4, 5, 4, 2}; // of ij among xx yy zz xy yz xz
+      std::vector<double> all(9 * points.size());
+      for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = values[6 * (i / 9) + place[i % 9]];
+      return all;
     }
   } // namespace
 
@@ -178,7 +200,7 @@ namespace kedge
       write_file(folder.path(name), "");
     });
     const auto item = [&](const PointField<dim> &field) {
-      return data_item(name, field.name, n_all, n_values(field.shape));
+      return data_item(name, field.name, n_all, n_columns_of(field.shape));
     };
     const PointField<dim> &position = point_field<dim>("position");
     std::string            entry    = "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" +
@@ -193,11 +215,11 @@ namespace kedge
       const auto         put = [&](const PointField<dim> &field) {
         write_dataset(file,
                       field.name,
-                      n_values(field.shape),
-                      collect(field, local_points),
+                      n_columns_of(field.shape),
+                      collect_columns(field, local_points),
                       first,
                       n_all);
-        n_columns += n_values(field.shape);
+        n_columns += n_columns_of(field.shape);
       };
       put(position);
       for (const PointField<dim> *field : fields)

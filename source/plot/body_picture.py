@@ -10,6 +10,7 @@ from vtu_reader import BadFile, read_points, read_pvd
 FAVOURITES = ["von_mises_stress", "pressure", "cauchy_stress_yy", "velocity", "displacement",
               "det_F"]
 SIGNED = ("pressure", "cauchy_stress_", "kirchhoff_stress_", "velocity_", "displacement_")
+MANY_POINTS = 4000 # above, an SVG holds the body as an image: shapes would make it huge
 CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=float)
 
 
@@ -148,6 +149,7 @@ def draw_body(run, field, times, n_snapshots):
         panel.set_visible(False)
     for panel, (time, _), state, value in zip(axes.flat, chosen, states, values):
         drawn = (draw_solid if in_space else draw_plane)(panel, state, value, norm, cmap)
+        drawn.set_rasterized(len(value) > MANY_POINTS)
         panel.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal",
                   title=f"t = {time:.4g} s")
         if in_space:

@@ -167,8 +167,8 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> loads;
     for (const auto &expressions : load_expressions)
       loads.push_back(evaluate<dim>(expressions, t));
-    for (const auto &[slot, id] : points.loaded)
-      for (const Share &share : shares.at(id))
+    for (const unsigned int slot : points.loaded)
+      for (const Share &share : shares.at(points.id[slot]))
         forces[slot] += share.factor * loads[share.load];
   }
 

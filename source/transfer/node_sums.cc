@@ -203,26 +203,24 @@ namespace kedge
 
   template <int dim>
   void
-  gradient_at_point(const StepPoints<dim>     &points,
-                    const LatticeWindow<dim>  &window,
-                    const ActiveNodes<dim>    &nodes,
-                    const std::vector<double> &nodal,
-                    const unsigned int         slot,
-                    double (&gradient)[dim][dim])
+  gradients_at_points(const StepPoints<dim>               &points,
+                      const LatticeWindow<dim>            &window,
+                      const ActiveNodes<dim>              &nodes,
+                      const std::vector<double>           &nodal,
+                      std::vector<dealii::Tensor<2, dim>> &gradients)
   {
-    const Stencil<dim>                   &stencil = points.stencil[slot];
-    const typename StepPoints<dim>::Batch one{slot, slot + 1, 0, stencil.pattern};
-    const auto visit = [&](const unsigned int, const auto &local, const auto &basis) {
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          {
-            gradient[i][j] = 0.;
-            for (std::size_t A = 0; A < local.size(); ++A)
-              gradient[i][j] += nodal[std::size_t(local[A]) * dim + i] * basis.gradient[j][A];
-          }
-    };
-    dispatch_pattern<dim>(stencil.pattern,
-                          ForEachPoint<dim, decltype(visit)>{points, window, nodes, visit, &one});
+    gradients.resize(points.size());
+    for_each_point(
+      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
+        for (int i = 0; i < dim; ++i)
+          for (int j = 0; j < dim; ++j)
+            {
+              double sum = 0.;
+              for (std::size_t A = 0; A < local.size(); ++A)
+                sum += nodal[std::size_t(local[A]) * dim + i] * basis.gradient[j][A];
+              gradients[slot][i][j] = sum;
+            }
+      });
   }
 
 
@@ -282,12 +280,11 @@ namespace kedge
                                       const ActiveNodes<dim> &,                                  \
                                       const std::vector<double> &,                               \
                                       std::vector<dealii::Tensor<1, dim>> &);                    \
-  template void gradient_at_point(const StepPoints<dim> &,                                       \
-                                  const LatticeWindow<dim> &,                                    \
-                                  const ActiveNodes<dim> &,                                      \
-                                  const std::vector<double> &,                                   \
-                                  const unsigned int,                                            \
-                                  double (&)[dim][dim]);                                         \
+  template void gradients_at_points(const StepPoints<dim> &,                                     \
+                                    const LatticeWindow<dim> &,                                  \
+                                    const ActiveNodes<dim> &,                                    \
+                                    const std::vector<double> &,                                 \
+                                    std::vector<dealii::Tensor<2, dim>> &);                      \
   template void multiply(const NodeMatrix<dim> &,                                                \
                          const LatticeWindow<dim> &,                                             \
                          const ActiveNodes<dim> &,                                               \

@@ -102,14 +102,13 @@ namespace kedge
     std::vector<Stencil<dim>>            stencils(n);
     std::vector<dealii::Point<dim>>      locations(n);
     std::vector<const PointState<dim> *> states(n);
-    std::vector<std::pair<unsigned int, std::uint64_t>> loaded_points;
-    points.for_each([&](const unsigned int i,
-                        const std::uint64_t       id,
+    std::vector<std::uint64_t>           ids(n);
+    points.for_each([&](const unsigned int        i,
+                        const std::uint64_t       point_id,
                         const dealii::Point<dim> &x,
                         const PointState<dim>    &state) {
       states[i]    = &state;
-      if (state.loaded != 0.)
-        loaded_points.emplace_back(i, id);
+      ids[i]       = point_id;
       locations[i] = x;
       body[i]      = static_cast<unsigned int>(state.body);
       cell[i]      = grid.window().cell_number(grid.lattice().cell_of(x));
@@ -126,11 +125,16 @@ namespace kedge
     acceleration.resize(n);
     stress_state.resize(n);
     slot_of.resize(n);
+    id.resize(n);
+    loaded.clear();
     for (unsigned int slot = 0; slot < n; ++slot)
       {
         const unsigned int     i     = local_number[slot];
         const PointState<dim> &state = *states[i];
         slot_of[i]                   = slot;
+        id[slot]                     = ids[i];
+        if (state.loaded != 0.)
+          loaded.push_back(slot);
         stencil[slot]                = stencils[i];
         mass[slot]                   = state.mass;
         volume[slot]                 = state.reference_volume;
@@ -139,10 +143,6 @@ namespace kedge
         acceleration[slot]           = state.acceleration;
         stress_state[slot]           = make_stress_state(state);
       }
-    loaded.clear();
-    for (const auto &[i, id] : loaded_points)
-      loaded.emplace_back(slot_of[i], id);
-    std::sort(loaded.begin(), loaded.end());
   }
 
 

@@ -15,7 +15,9 @@ namespace kedge
    * The material points at chosen times, for ParaView: points/points-NNNNNN.vtu
    * (on several ranks one piece each and a .pvtu) with points.pvd, and, when
    * asked for, points/points-NNNNNN.h5 with points.xdmf. Doubles throughout;
-   * whole numbers as 64-bit integers in the vtu.
+   * whole numbers as 64-bit
+   * integers in the vtu. Symmetric tensors have six values in the vtu (the order of
+   * VTK), nine in HDF5.
    */
   template <int dim>
   class PointsOutput

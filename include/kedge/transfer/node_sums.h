@@ -59,15 +59,14 @@ namespace kedge
                         const std::vector<double>           &nodal,
                         std::vector<dealii::Tensor<1, dim>> &at_points);
 
-  /** d v_i / dx_j at one slot, [i][j]. */
+  /** d v_i / dx_j, [i][j], for all slots. Ghost values must be up to date. */
   template <int dim>
   void
-  gradient_at_point(const StepPoints<dim>     &points,
-                    const LatticeWindow<dim>  &window,
-                    const ActiveNodes<dim>    &nodes,
-                    const std::vector<double> &nodal,
-                    const unsigned int         slot,
-                    double (&gradient)[dim][dim]);
+  gradients_at_points(const StepPoints<dim>               &points,
+                      const LatticeWindow<dim>            &window,
+                      const ActiveNodes<dim>              &nodes,
+                      const std::vector<double>           &nodal,
+                      std::vector<dealii::Tensor<2, dim>> &gradients);
 
   /**
    * y = A x with this rank's share of the matrix: partial sums at all local

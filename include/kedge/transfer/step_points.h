@@ -30,6 +30,7 @@ namespace kedge
 
     std::vector<Batch>                  batches;
     std::vector<unsigned int>           local_number; ///< in the cloud's order
+    std::vector<std::uint64_t>          id;
     std::vector<Stencil<dim>>           stencil;
     std::vector<double>                 mass;         ///< [kg]
     std::vector<double>                 volume;       ///< V0 [m^3]
@@ -38,8 +39,7 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> acceleration; ///< [m/s^2]
     std::vector<StressState<dim>>       stress_state;
     std::vector<unsigned int>           slot_of; ///< slot of each point in the cloud's order
-    /** Slots and ids of the points that carry loads. */
-    std::vector<std::pair<unsigned int, std::uint64_t>> loaded;
+    std::vector<unsigned int>           loaded;  ///< slots of the points that carry loads
 
     /** Reads the cloud; @p basis_of_body says which stencil each body uses. */
     void

@@ -1,0 +1,127 @@
+#ifndef kedge_solid_solid_problem_h
+#define kedge_solid_solid_problem_h
+
+#include <kedge/grid/node_conditions.h>
+#include <kedge/solid/internal_force.h>
+#include <kedge/solvers/newton.h>
+#include <kedge/time_integration/scheme.h>
+#include <kedge/transfer/equation_system.h>
+
+namespace kedge
+{
+  /** The nodal quantities of a step, dim values per local node, ghosts up to date. */
+  struct NodalState
+  {
+    std::vector<double> velocity_n;     ///< v_n [m/s]
+    std::vector<double> acceleration_n; ///< a_n [m/s^2]; zero where the scheme carries none
+    std::vector<double> external_force; ///< f_ext at the scheme's load time [N], owned nodes
+    std::vector<double> displacement;   ///< u, the unknown: over the step [m]
+  };
+
+  /** Wall seconds spent in the parts of the Newton iteration. */
+  struct SolidTimings
+  {
+    double residual = 0., tangent = 0., linear_solve = 0.;
+  };
+
+  /**
+   * The balance of momentum of one step (3.114), (3.148),
+   *   r(u) = f_int(u) + M a_m(u) - f_ext = 0
+   * at the free components of the active nodes, with its tangent
+   *   J = K + c M,   c = d a_m / d u.
+   */
+  template <int dim>
+  class SolidProblem : public NewtonProblem
+  {
+  public:
+    SolidProblem(const InternalForce<dim>     &internal_force,
+                 const Scheme                 &scheme,
+                 const LinearSolverParameters &parameters,
+                 const std::vector<std::string> &body_names);
+
+    /** Announces points, nodes and conditions of a step. */
+    void
+    reinit(const BackgroundGrid<dim> &grid,
+           const ActiveNodes<dim>    &nodes,
+           const NodeConditions<dim> &conditions,
+           const StepPoints<dim>     &points,
+           const NodeMatrix<dim>     &mass,
+           const int                  stencil_radius,
+           const bool                 new_pattern);
+
+    /**
+     * Starts a step from t_n of size dt. @p state.displacement is the
+     * predictor at the free components; the prescribed ones are set here.
+     */
+    void
+    start(NodalState &state, const double t_n, const double dt);
+
+    Evaluation
+    evaluate() override;
+
+    LinearStatus
+    solve_correction(double &norm) override;
+
+    void
+    apply_correction(const double factor) override;
+
+    bool
+    restart_safely() override;
+
+    /** Work of the supports that move in this step, after convergence [J] (collective). */
+    double
+    reaction_work() const;
+
+    std::uint64_t
+    n_equations() const
+    {
+      return equations.system().n_global;
+    }
+
+    std::string
+    linear_method() const
+    {
+      return linear_solver.method();
+    }
+
+    const SolidTimings &
+    timings() const
+    {
+      return timings_;
+    }
+
+  private:
+    void
+    set_prescribed_displacements();
+    void
+    add_inertia_to_stiffness();
+    std::string
+    describe_point(const unsigned int slot) const;
+    std::string
+    describe_equation(const std::int64_t equation) const;
+
+    const InternalForce<dim>       internal_force;
+    const Scheme                   scheme;
+    const std::vector<std::string> body_names;
+    LinearSolver                   linear_solver;
+
+    const BackgroundGrid<dim> *grid       = nullptr;
+    const ActiveNodes<dim>    *nodes      = nullptr;
+    const NodeConditions<dim> *conditions = nullptr;
+    const StepPoints<dim>     *points     = nullptr;
+    const NodeMatrix<dim>     *mass       = nullptr;
+    NodalState                *state      = nullptr;
+    double                     t_n        = 0.;
+    double                     dt         = 0.;
+    bool                       from_zero  = false;
+
+    NodeMatrix<dim>            stiffness;
+    EquationSystem<dim>        equations;
+    std::vector<unsigned char> is_free;
+    std::vector<double>        internal, inertia, acceleration, residual, correction;
+    std::vector<double>        diagonal; ///< of the last tangent, at the equations
+    SolidTimings               timings_;
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,300 @@
+#include <kedge/solid/solid_problem.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Adds the wall time of its life to a sum. */
+    class Stopwatch
+    {
+    public:
+      explicit Stopwatch(double &sum)
+        : sum(sum)
+        , begin(MPI_Wtime())
+      {}
+      ~Stopwatch()
+      {
+        sum += MPI_Wtime() - begin;
+      }
+
+    private:
+      double      &sum;
+      const double begin;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  SolidProblem<dim>::SolidProblem(const InternalForce<dim>       &internal_force,
+                                  const Scheme                   &scheme,
+                                  const LinearSolverParameters   &parameters,
+                                  const std::vector<std::string> &body_names)
+    : internal_force(internal_force)
+    , scheme(scheme)
+    , body_names(body_names)
+    , linear_solver(parameters, {dim, false, scheme.dynamic})
+  {}
+
+
+
+  template <int dim>
+  void
+  SolidProblem<dim>::reinit(const BackgroundGrid<dim> &grid,
+                            const ActiveNodes<dim>    &nodes,
+                            const NodeConditions<dim> &conditions,
+                            const StepPoints<dim>     &points,
+                            const NodeMatrix<dim>     &mass,
+                            const int                  stencil_radius,
+                            const bool                 new_pattern)
+  {
+    this->grid       = &grid;
+    this->nodes      = &nodes;
+    this->conditions = &conditions;
+    this->points     = &points;
+    this->mass       = &mass;
+    if (!new_pattern)
+      return;
+    stiffness.reinit(nodes.n_local(), dim, stencil_radius);
+    is_free.resize(std::size_t(nodes.n_local()) * dim);
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        is_free[std::size_t(i) * dim + d] = !conditions.prescribed(i, d);
+    equations.reinit(grid, nodes, is_free, stiffness);
+    linear_solver.pattern_changed();
+  }
+
+
+
+  template <int dim>
+  void
+  SolidProblem<dim>::start(NodalState &state, const double t_n, const double dt)
+  {
+    this->state = &state;
+    this->t_n   = t_n;
+    this->dt    = dt;
+    from_zero   = false;
+    diagonal.assign(equations.system().n_rows(), 0.);
+    internal.resize(state.displacement.size());
+    inertia.assign(state.displacement.size(), 0.);
+    acceleration.resize(state.displacement.size());
+    residual.resize(state.displacement.size());
+    set_prescribed_displacements();
+  }
+
+
+
+  template <int dim>
+  void
+  SolidProblem<dim>::set_prescribed_displacements()
+  {
+    for (unsigned int i = 0; i < nodes->n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (conditions->prescribed(i, d))
+          state->displacement[std::size_t(i) * dim + d] =
+            conditions->increment(i, d, t_n, t_n + dt);
+  }
+
+
+
+  template <int dim>
+  NewtonProblem::Evaluation
+  SolidProblem<dim>::evaluate()
+  {
+    const Stopwatch            stopwatch(timings_.residual);
+    const auto                &window = grid->window();
+    const std::vector<double> &u      = state->displacement;
+    std::fill(internal.begin(), internal.end(), 0.);
+    const PointStatus status = internal_force.add_force(*points, window, *nodes, u, internal);
+    nodes->add_to_owners(internal, dim);
+    if (scheme.dynamic)
+      {
+        for (std::size_t i = 0; i < u.size(); ++i)
+          acceleration[i] = scheme.equilibrium_acceleration(
+            u[i], state->velocity_n[i], state->acceleration_n[i], dt);
+        multiply(*mass, window, *nodes, dim, acceleration, inertia);
+        nodes->add_to_owners(inertia, dim);
+      }
+
+    // squares: residual, internal, inertia, external, diagonal times displacement; failures
+    double sums[6] = {0, 0, 0, 0, 0, status.ok() ? 0. : 1.};
+    for (unsigned int e = 0; e < equations.system().n_rows(); ++e)
+      {
+        const unsigned int i = equations.nodal_index(e);
+        const double       r = internal[i] + inertia[i] - state->external_force[i];
+        sums[0] += r * r;
+        sums[1] += internal[i] * internal[i];
+        sums[2] += inertia[i] * inertia[i];
+        sums[3] += state->external_force[i] * state->external_force[i];
+        sums[4] += diagonal[e] * diagonal[e] * u[i] * u[i];
+      }
+    for (std::size_t i = 0; i < residual.size(); ++i)
+      residual[i] = internal[i] + inertia[i] - state->external_force[i];
+    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, nodes->communicator());
+
+    Evaluation result;
+    result.residual_norm = std::sqrt(sums[0]);
+    result.scale =
+      std::sqrt(sums[1]) + std::sqrt(sums[2]) + std::sqrt(sums[3]) + std::sqrt(sums[4]);
+    if (sums[5] > 0.)
+      {
+        result.ok    = false;
+        result.cause = status.ok() ?
+                         "a material point of another rank cannot follow the trial step" :
+                         describe_point(status.failed_slot);
+      }
+    else if (!std::isfinite(sums[0]))
+      {
+        result.ok    = false;
+        result.cause = "the residual is not finite";
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  SolidProblem<dim>::add_inertia_to_stiffness()
+  {
+    const double coefficient = scheme.inertia_coefficient(dt);
+    for (unsigned int i = 0; i < nodes->n_local(); ++i)
+      {
+        const double *mass_row = mass->row(i, 0);
+        for (int p = 0; p < dim; ++p)
+          {
+            double *row = stiffness.row(i, p);
+            for (unsigned int s = 0; s < stiffness.n_slots(); ++s)
+              row[s * dim + p] += coefficient * mass_row[s];
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  LinearStatus
+  SolidProblem<dim>::solve_correction(double &norm)
+  {
+    {
+      const Stopwatch stopwatch(timings_.tangent);
+      stiffness.set_zero();
+      internal_force.add_stiffness(*points, grid->window(), *nodes, state->displacement, stiffness);
+      if (scheme.dynamic)
+        add_inertia_to_stiffness();
+      equations.fill(*nodes, stiffness);
+      const SparseSystem &system = equations.system();
+      for (unsigned int e = 0; e < system.n_rows(); ++e)
+        for (std::int64_t k = system.row_start[e]; k < system.row_start[e + 1]; ++k)
+          if (system.column[k] == system.first_row + e)
+            diagonal[e] = system.value[k];
+    }
+
+    const Stopwatch     stopwatch(timings_.linear_solve);
+    std::vector<double> right_side, solution;
+    equations.gather(residual, right_side);
+    for (double &value : right_side)
+      value = -value;
+    LinearStatus status = linear_solver.factorise(equations.system());
+    if (status.success)
+      status = linear_solver.solve(right_side, solution);
+    if (!status.success)
+      {
+        status.cause += describe_equation(status.equation);
+        return status;
+      }
+    equations.scatter(solution, correction);
+    nodes->update_ghosts(correction, dim);
+    double square = 0.;
+    for (const double value : solution)
+      square += value * value;
+    norm = std::sqrt(dealii::Utilities::MPI::sum(square, nodes->communicator()));
+    return status;
+  }
+
+
+
+  template <int dim>
+  void
+  SolidProblem<dim>::apply_correction(const double factor)
+  {
+    for (std::size_t i = 0; i < correction.size(); ++i)
+      state->displacement[i] += factor * correction[i];
+  }
+
+
+
+  template <int dim>
+  bool
+  SolidProblem<dim>::restart_safely()
+  {
+    if (from_zero)
+      return false;
+    from_zero = true;
+    std::fill(state->displacement.begin(), state->displacement.end(), 0.);
+    set_prescribed_displacements();
+    return true;
+  }
+
+
+
+  template <int dim>
+  double
+  SolidProblem<dim>::reaction_work() const
+  {
+    double work = 0.;
+    for (unsigned int i = 0; i < nodes->n_owned() * dim; ++i)
+      if (!is_free[i])
+        work += residual[i] * state->displacement[i];
+    return dealii::Utilities::MPI::sum(work, nodes->communicator());
+  }
+
+
+
+  template <int dim>
+  std::string
+  SolidProblem<dim>::describe_point(const unsigned int slot) const
+  {
+    std::ostringstream text;
+    unsigned int       body = 0;
+    for (const auto &batch : points->batches)
+      if (slot >= batch.begin && slot < batch.end)
+        body = batch.body;
+    text << "material point " << points->id[slot] << " of body '" << body_names[body] << "' at ("
+         << points->location[slot] << ") has det F <= 0 or no finite stress";
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  SolidProblem<dim>::describe_equation(const std::int64_t equation) const
+  {
+    if (equation < 0)
+      return "";
+    const SparseSystem &system = equations.system();
+    double              place[dim + 2] = {};
+    if (equation >= system.first_row && equation < system.first_row + system.n_rows())
+      {
+        const unsigned int nodal =
+          equations.nodal_index(static_cast<unsigned int>(equation - system.first_row));
+        const auto x = grid->lattice().node_position(
+          grid->window().node_index(nodes->window_node(nodal / dim)));
+        for (int d = 0; d < dim; ++d)
+          place[d] = x[d];
+        place[dim] = nodal % dim;
+      }
+    MPI_Allreduce(MPI_IN_PLACE, place, dim + 2, MPI_DOUBLE, MPI_SUM, nodes->communicator());
+    std::ostringstream text;
+    text << ": nothing holds the displacement component " << "xyz"[static_cast<int>(place[dim])]
+         << " of the node at (";
+    for (int d = 0; d < dim; ++d)
+      text << (d > 0 ? ", " : "") << place[d];
+    text << "), in the cells around it the body is too thin or too loosely held";
+    return text.str();
+  }
+
+  template class SolidProblem<2>;
+  template class SolidProblem<3>;
+} // namespace kedge
