@@ -21,13 +21,15 @@ MAY_INCLUDE = {
     "grid": set(),
     "points": {"grid"},
     "basis": {"grid", "points"},
-    "transfer": {"basis", "grid", "points"},
-    "stress": {"transfer", "materials", "basis", "grid", "points"},
+    # pointwise laws: they know a material and a committed state, no grid
+    "stress": {"materials"},
+    # sums between points and nodes; the consistent mass must be solved for
+    "transfer": {"basis", "grid", "points", "stress", "solvers"},
 }
-PHYSICS = MAY_INCLUDE["stress"] | {"stress"}
+PHYSICS = MAY_INCLUDE["transfer"] | {"transfer", "materials", "time_integration"}
 MAY_INCLUDE["solid"] = PHYSICS
 MAY_INCLUDE["porous"] = PHYSICS
-MAY_INCLUDE["contact"] = PHYSICS - {"stress"}
+MAY_INCLUDE["contact"] = PHYSICS
 # scene sees nothing of the rooms but their parameters
 MAY_INCLUDE["scene"] = set()
 MAY_INCLUDE["io"] = PHYSICS | {"scene", "solid", "porous", "contact"}

@@ -99,7 +99,7 @@ namespace kedge
     state_at_rest(const SubCells<dim>                   &sub_cells,
                   const dealii::Point<dim>              &x,
                   const unsigned int                     body_index,
-                  const MaterialParameters              &material,
+                  const double                           density,
                   const std::array<Expression, std::size_t(dim)> &velocity)
     {
       PointState<dim> state;
@@ -117,7 +117,7 @@ namespace kedge
           state.deformation_gradient[d][d] = state.elastic_frame[d][d] = 1.;
         }
       state.out_of_plane_elastic_stretch = 1.;
-      state.mass                         = material.density * state.reference_volume;
+      state.mass                         = density * state.reference_volume;
       for (int d = 0; d < dim; ++d)
         state.velocity[d] = velocity[d](coordinates);
       return state;
@@ -130,7 +130,7 @@ namespace kedge
   std::vector<GeneratedPoint<dim>>
   generate_points(const BodyParameters<dim>           &body,
                   const unsigned int                   body_index,
-                  const MaterialParameters            &material,
+                  const double                         density,
                   const Lattice<dim>                  &lattice,
                   const std::map<std::string, double> &constants,
                   const std::uint64_t                  first_id)
@@ -149,7 +149,7 @@ namespace kedge
         return;
       points.push_back({{first_id + points.size(),
                          x,
-                         state_at_rest<dim>(sub_cells, x, body_index, material, velocity)},
+                         state_at_rest<dim>(sub_cells, x, body_index, density, velocity)},
                         0u});
       places.push_back(sub);
       filled.insert(sub_cells.key(sub));
@@ -175,14 +175,14 @@ namespace kedge
   template std::vector<GeneratedPoint<2>>
   generate_points(const BodyParameters<2> &,
                   const unsigned int,
-                  const MaterialParameters &,
+                  const double,
                   const Lattice<2> &,
                   const std::map<std::string, double> &,
                   const std::uint64_t);
   template std::vector<GeneratedPoint<3>>
   generate_points(const BodyParameters<3> &,
                   const unsigned int,
-                  const MaterialParameters &,
+                  const double,
                   const Lattice<3> &,
                   const std::map<std::string, double> &,
                   const std::uint64_t);

@@ -297,8 +297,12 @@ namespace kedge
           {{"Tolerance",
             "1e-11",
             allow.number(Range::positive()),
-            "Of the residual force, relative to the forces that act [-]."},
-           {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."}}};
+            "Of |r_k| |du_k| / (|r_0| |du_1|), residual times correction [-]."},
+           {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."},
+           {"Log",
+            "false",
+            allow.truth(),
+            "Write newton.csv: the norms of every residual and correction."}}};
       }
 
       SectionDeclaration

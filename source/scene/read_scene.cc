@@ -300,6 +300,7 @@ namespace kedge
       NewtonParameters    newton;
       newton.tolerance      = section.number("Tolerance");
       newton.max_iterations = section.whole_number("Iterations");
+      newton.log            = section.truth("Log");
       return newton;
     }
 

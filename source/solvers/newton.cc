@@ -73,6 +73,7 @@ namespace kedge
             return report;
           }
         evaluation = advance(problem);
+        fprintf(stderr, "DBG it %u r %g du %g ok %d scale %g\n", report.iterations, evaluation.residual_norm, correction_norm, int(evaluation.ok), evaluation.scale);
         report.residual_norms.push_back(evaluation.residual_norm);
         report.correction_norms.push_back(correction_norm);
         if (!evaluation.ok)

@@ -40,26 +40,27 @@ namespace kedge
                                            const NodeMatrix<dim>     &matrix) const
   {
     const unsigned int        width   = matrix.n_slots() * n_components;
-    const std::vector<int>    strides = matrix.slot_strides(grid.window());
-    const int                 n_window = static_cast<int>(grid.window().n_nodes_total());
+    const auto               &window  = grid.window();
     std::vector<std::int64_t> columns(std::size_t(nodes.n_local()) * width, -1);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       {
         const auto here = grid.window().node_index(nodes.window_node(i));
         for (unsigned int s = 0; s < matrix.n_slots(); ++s)
           {
-            const int neighbour = static_cast<int>(nodes.window_node(i)) + strides[s];
-            if (neighbour < 0 || neighbour >= n_window || nodes.local(neighbour) < 0)
-              continue;
-            // numbers wrap around at the window's border: check the coordinates
-            const auto there = grid.window().node_index(neighbour);
-            bool       close = true;
+            const auto offset = matrix.offset(s);
+            auto       there  = here;
+            bool       inside = true;
             for (int d = 0; d < dim; ++d)
-              close = close && std::abs(there[d] - here[d]) <= matrix.radius();
-            if (close)
+              {
+                there[d] += offset[d];
+                inside = inside && there[d] >= window.low[d] &&
+                         there[d] <= window.low[d] + window.n_cells[d];
+              }
+            const int neighbour = inside ? nodes.local(window.node_number(there)) : -1;
+            if (neighbour >= 0)
               for (unsigned int c = 0; c < n_components; ++c)
                 columns[std::size_t(i) * width + s * n_components + c] =
-                  number[std::size_t(nodes.local(neighbour)) * n_components + c];
+                  number[std::size_t(neighbour) * n_components + c];
           }
       }
     // what other ranks know of the neighbours of nodes owned here

@@ -71,6 +71,10 @@ namespace kedge
 
     std::vector<unsigned int> key = cell;
     sort_by_key(key, grid.window().n_cells_total(), local_number);
+    n_cells = 0;
+    for (unsigned int k = 0; k < n; ++k)
+      if (k == 0 || cell[local_number[k]] != cell[local_number[k - 1]])
+        ++n_cells;
     for (unsigned int i = 0; i < n; ++i)
       key[i] = stencils[i].first_node;
     sort_by_key(key, grid.window().n_nodes_total(), local_number);
@@ -121,6 +125,7 @@ namespace kedge
     mass.resize(n);
     volume.resize(n);
     location.resize(n);
+    determinant.resize(n);
     velocity.resize(n);
     acceleration.resize(n);
     stress_state.resize(n);
@@ -139,6 +144,7 @@ namespace kedge
         mass[slot]                   = state.mass;
         volume[slot]                 = state.reference_volume;
         location[slot]               = locations[i];
+        determinant[slot]            = dealii::determinant(state.deformation_gradient);
         velocity[slot]               = state.velocity;
         acceleration[slot]           = state.acceleration;
         stress_state[slot]           = make_stress_state(state);

@@ -3,7 +3,6 @@
 
 #include <kedge/base/expression.h>
 #include <kedge/grid/lattice.h>
-#include <kedge/materials/parameters.h>
 #include <kedge/points/parameters.h>
 #include <kedge/points/point_state.h>
 
@@ -21,6 +20,7 @@ namespace kedge
    * Makes the material points of one body: every cell of the background grid
    * is divided into equal sub-cells, and each sub-cell whose centre lies in
    * the body becomes a point with the sub-cell's volume, at rest strain.
+   * The mass is @p density [kg/m^3] times the volume.
    * Ids count up from @p first_id. In MPI runs every rank makes all points
    * (the caller keeps its share).
    *
@@ -30,7 +30,7 @@ namespace kedge
   std::vector<GeneratedPoint<dim>>
   generate_points(const BodyParameters<dim>           &body,
                   const unsigned int                   body_index,
-                  const MaterialParameters            &material,
+                  const double                         density,
                   const Lattice<dim>                  &lattice,
                   const std::map<std::string, double> &constants,
                   const std::uint64_t                  first_id);

@@ -7,6 +7,7 @@ namespace kedge
   {
     double       tolerance      = 1e-11; ///< of criterion (3.185) [-]
     unsigned int max_iterations = 20;
+    bool         log            = false; ///< write newton.csv: every residual and correction
   };
 
   enum class LinearSolverKind

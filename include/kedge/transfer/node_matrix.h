@@ -64,6 +64,19 @@ namespace kedge
       return number;
     }
 
+    /** Lattice offset of a slot. */
+    LatticeIndex<dim>
+    offset(unsigned int slot) const
+    {
+      LatticeIndex<dim> result;
+      for (int d = 0; d < dim; ++d)
+        {
+          result[d] = static_cast<int>(slot % (2 * radius_ + 1)) - radius_;
+          slot /= 2 * radius_ + 1;
+        }
+      return result;
+    }
+
     /** Change of the window node number from a node to its neighbour at each slot. */
     std::vector<int>
     slot_strides(const LatticeWindow<dim> &window) const

@@ -34,11 +34,13 @@ namespace kedge
     std::vector<Stencil<dim>>           stencil;
     std::vector<double>                 mass;         ///< [kg]
     std::vector<double>                 volume;       ///< V0 [m^3]
+    std::vector<double>                 determinant;  ///< det F_n
     std::vector<dealii::Point<dim>>     location;     ///< x_n [m]
     std::vector<dealii::Tensor<1, dim>> velocity;     ///< [m/s]
     std::vector<dealii::Tensor<1, dim>> acceleration; ///< [m/s^2]
     std::vector<StressState<dim>>       stress_state;
     std::vector<unsigned int>           slot_of; ///< slot of each point in the cloud's order
+    unsigned int                        n_cells = 0; ///< cells with points
     std::vector<unsigned int>           loaded;  ///< slots of the points that carry loads
 
     /** Reads the cloud; @p basis_of_body says which stencil each body uses. */

@@ -1,0 +1,115 @@
+#ifndef kedge_simulation_simulation_h
+#define kedge_simulation_simulation_h
+
+#include <kedge/base/exceptions.h>
+#include <kedge/io/checkpoint.h>
+#include <kedge/io/grid_output.h>
+#include <kedge/io/history_writer.h>
+#include <kedge/io/points_output.h>
+#include <kedge/io/probe_writer.h>
+#include <kedge/io/progress.h>
+#include <kedge/io/run_folder.h>
+#include <kedge/io/signals.h>
+#include <kedge/io/summary.h>
+#include <kedge/simulation/step_engine.h>
+#include <kedge/time_integration/clock.h>
+
+#include <filesystem>
+
+namespace kedge
+{
+  struct RunOptions
+  {
+    std::filesystem::path output;
+    bool                  resume = false;
+    bool                  strict = false; ///< a failed check makes the exit code 2
+  };
+
+  /** A whole run of a scene: the time loop with its books, output and checkpoints. */
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /** @throws UserError for what the scene or the folder do not allow */
+    Simulation(const Scene<dim> &scene, const RunOptions &options, const MPI_Comm communicator);
+
+    /** Runs to the end (or the stop) and says how it ended. */
+    ExitCode
+    run();
+
+  private:
+    /** Sums over the accepted steps of a run; part of every checkpoint. */
+    struct Totals
+    {
+      double        external_work      = 0.;
+      double        initial_energy     = 0.;
+      double        wall_before        = 0.; ///< of the runs that this one resumes [s]
+      double        update_seconds     = 0.;
+      double        points_times_steps = 0.;
+      std::uint64_t newton             = 0;
+      std::uint64_t linear             = 0;
+      std::uint64_t rejected           = 0;
+      std::uint64_t rejected_pending   = 0; ///< since the last accepted step
+      double        next_output_time   = 0.;
+    };
+
+    void
+    start_fresh();
+    void
+    resume();
+    void
+    set_step();
+    void
+    finish_step(const StepReport &report);
+    bool
+    reject_step(const StepReport &report);
+    void
+    write_probes();
+    void
+    write_points(const bool force);
+    void
+    write_grid();
+    void
+    write_checkpoint();
+    void
+    write_checkpoint_if_due();
+    ExitCode
+    finish(const std::string &status, const std::string &reason);
+    double
+    wall_time() const;
+    std::vector<Probe>
+    find_probes() const;
+
+    const Scene<dim>   scene;
+    const RunOptions   options;
+    const MPI_Comm     communicator;
+    const double       wall_start;
+    RunFolder          folder;
+    StepEngine<dim>    engine;
+    Clock              clock;
+    Totals             totals;
+    HistoryRow         row;
+
+    std::unique_ptr<HistoryWriter>     history;
+    std::unique_ptr<ProbeWriter<dim>>  probes;
+    std::unique_ptr<PointsOutput<dim>> points_output;
+    std::unique_ptr<GridOutput<dim>>   grid_output;
+    std::unique_ptr<CsvFile>           newton_log;
+    CheckpointStore<dim>               checkpoints;
+    Progress                           progress;
+    double                             last_checkpoint_wall = 0.;
+    std::uint64_t                      last_checkpoint_step = 0;
+    std::optional<std::uint64_t>       last_points_step; ///< step of the last output of points
+    double                             output_seconds       = 0.;
+  };
+
+  /**
+   * Builds the scene and prints what a run would start with: bodies, points,
+   * active cells, unknowns, first step, memory. Runs nothing, writes nothing.
+   */
+  template <int dim>
+  void
+  validate_scene(const Scene<dim> &scene, std::ostream &out, const MPI_Comm communicator);
+} // namespace kedge
+
+#endif

@@ -1,0 +1,195 @@
+#ifndef kedge_simulation_step_engine_h
+#define kedge_simulation_step_engine_h
+
+#include <kedge/io/history_row.h>
+#include <kedge/scene/scene.h>
+#include <kedge/solid/external_loads.h>
+#include <kedge/solid/point_update.h>
+#include <kedge/solid/solid_problem.h>
+#include <kedge/transfer/velocity_mapping.h>
+
+#include <map>
+
+namespace kedge
+{
+  /** How an attempt at a step ended. */
+  struct StepReport
+  {
+    bool         accepted = false;
+    bool         hopeless = false; ///< a smaller step would not help
+    std::string  cause;            ///< of a rejection
+    NewtonReport newton;
+  };
+
+  /**
+   * The material points, the grid and the algorithm of one step: (A) activate
+   * the grid around the points, (B) map points to grid, (C, D) find the nodal
+   * displacements, (E) map back. An attempt changes nothing that is
+   * committed; accept_step() commits all at once.
+   */
+  template <int dim>
+  class StepEngine
+  {
+  public:
+    StepEngine(const Scene<dim> &scene, const MPI_Comm communicator);
+
+    /**
+     * Makes the bodies' points and the grid around them.
+     *
+     * @throws UserError for bodies outside the grid, empty or overlapping
+     */
+    void
+    create_points();
+
+    /** Restores the points of a checkpoint; create_points() must have been called. */
+    void
+    restore_points(const std::vector<PointRecord<dim>> &records,
+                   const LatticeWindow<dim>            &covered,
+                   const std::vector<unsigned int>     &weights);
+
+    /** The points as generated, with exposed faces, for probes; all ranks have all. */
+    const std::vector<GeneratedPoint<dim>> &
+    generated_points() const
+    {
+      return generated;
+    }
+
+    /** Frees what only the start-up needs. */
+    void
+    forget_generated_points();
+
+    /** The step allowed by the waves, (3.126), (3.127) or (3.195) [s] (collective). */
+    double
+    cfl_step(const StepSizeKind kind);
+
+    /** One attempt, from time @p t to @p t + @p dt. */
+    StepReport
+    try_step(const double t, const double dt);
+
+    /** Commits the last attempt, which must have been accepted. */
+    void
+    accept_step();
+
+    /** Fills the books of the committed state: energies, momenta, counts. */
+    void
+    write_books(HistoryRow &row);
+
+    /** Work of external forces and moving supports in the last accepted step [J]. */
+    double
+    work_of_last_step() const
+    {
+      return step_work;
+    }
+
+    const MaterialPoints<dim> &
+    points() const
+    {
+      return cloud;
+    }
+
+    const BackgroundGrid<dim> &
+    grid() const
+    {
+      return background;
+    }
+
+    /** What grid().cover() was last called with. */
+    const LatticeWindow<dim> &
+    covered_cells() const
+    {
+      return covered;
+    }
+
+    const std::vector<unsigned int> &
+    covered_weights() const
+    {
+      return weights;
+    }
+
+    /** Active nodes and the nodal values of the last attempt, for output. */
+    const ActiveNodes<dim> &
+    active_nodes() const
+    {
+      return nodes;
+    }
+
+    const NodalState &
+    nodal_state() const
+    {
+      return nodal;
+    }
+
+    /** Points, nodes, unknowns of the present configuration (collective). */
+    void
+    activate();
+
+    std::uint64_t
+    n_equations() const
+    {
+      return problem.n_equations();
+    }
+
+    std::string
+    linear_method() const
+    {
+      return problem.linear_method();
+    }
+
+    /** Wall seconds so far, by phase. */
+    std::map<std::string, double>
+    phase_seconds() const;
+
+  private:
+    void
+    check_overlaps() const;
+    void
+    cover_points(const std::vector<PointRecord<dim>> &records);
+    void
+    follow_points();
+    LinearStatus
+    particle_to_grid(const double t, const double dt);
+    void
+    apply_external_forces(const double t);
+    void
+    predict(const double dt);
+    std::string
+    check_points();
+    void
+    update_velocities(const unsigned int slot, PointState<dim> &state) const;
+
+    const Scene<dim>               scene;
+    const MPI_Comm                 communicator;
+    const Scheme                   scheme;
+    const int                      stencil_radius;
+    std::vector<BasisKind>         basis_of_body;
+    std::vector<Material>          material_of_body;
+    std::vector<std::string>       body_names;
+
+    BackgroundGrid<dim>            background;
+    MaterialPoints<dim>            cloud;
+    StepPoints<dim>                step_points;
+    ActiveNodes<dim>               nodes;
+    NodeConditions<dim>            conditions;
+    ExternalLoads<dim>             loads;
+    NodeMatrix<dim>                mass;
+    VelocityMapping<dim>           mapping;
+    SolidProblem<dim>              problem;
+    NodalState                     nodal;
+
+    std::vector<GeneratedPoint<dim>>    generated;
+    LatticeWindow<dim>                  covered;
+    std::vector<unsigned int>           weights;
+    bool                                activated = false;
+    double                              step_t    = 0.;
+    double                              step_dt   = 0.;
+    double                              step_work = 0.;
+    std::vector<double>                 nodal_mass; ///< lumped, owned and ghost nodes
+    std::vector<dealii::Tensor<1, dim>> point_forces;
+    std::vector<dealii::Tensor<1, dim>> point_displacements;
+    std::vector<PointUpdate<dim>>       updates;
+    std::vector<dealii::Tensor<1, dim>> velocity_changes, accelerations;
+    std::map<std::string, double>       seconds;
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,329 @@
+#include <kedge/simulation/step_engine.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Nodes lighter than this part of the heaviest start from their mean velocity. */
+    constexpr double light_node = 1e-2;
+
+    template <int dim>
+    int
+    radius_of(const Scene<dim> &scene)
+    {
+      for (const auto &body : scene.bodies)
+        if (body.basis == BasisKind::gimp)
+          return 2;
+      return 1;
+    }
+
+    template <int dim>
+    std::vector<bool>
+    bodies_with_body_force(const Scene<dim> &scene)
+    {
+      std::vector<bool> result;
+      for (const auto &body : scene.bodies)
+        result.push_back(body.body_force);
+      return result;
+    }
+
+    template <int dim>
+    std::vector<Material>
+    materials_of_bodies(const Scene<dim> &scene)
+    {
+      std::vector<Material> result;
+      for (const auto &body : scene.bodies)
+        result.push_back(make_material(scene.materials[body.material]));
+      return result;
+    }
+
+    template <int dim>
+    std::vector<std::string>
+    names_of_bodies(const Scene<dim> &scene)
+    {
+      std::vector<std::string> result;
+      for (const auto &body : scene.bodies)
+        result.push_back(body.name);
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StepEngine<dim>::StepEngine(const Scene<dim> &scene, const MPI_Comm communicator)
+    : scene(scene)
+    , communicator(communicator)
+    , scheme(scene.time)
+    , stencil_radius(radius_of(scene))
+    , material_of_body(materials_of_bodies(scene))
+    , body_names(names_of_bodies(scene))
+    , background(scene.grid, communicator)
+    , conditions(scene.node_conditions, scene.constants)
+    , loads(scene.body_force,
+            bodies_with_body_force(scene),
+            scene.point_loads,
+            scene.tractions,
+            scene.constants)
+    , problem(InternalForce<dim>(material_of_body,
+                                 scheme.conserving_stress ? StressRule::conserving :
+                                                            StressRule::at_configuration,
+                                 scheme.alpha_f),
+              scheme,
+              scene.linear_solver,
+              body_names)
+  {
+    for (const auto &body : scene.bodies)
+      basis_of_body.push_back(body.basis);
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::activate()
+  {
+    if (activated)
+      return;
+    const double begin = MPI_Wtime();
+    step_points.reinit(background, cloud, basis_of_body);
+    const bool changed = nodes.reinit(background, step_points.reached_nodes(background.window()));
+    if (changed)
+      {
+        conditions.reinit(background, nodes);
+        if (scheme.dynamic)
+          mass.reinit(nodes.n_local(), 1, stencil_radius);
+      }
+    problem.reinit(background, nodes, conditions, step_points, mass, stencil_radius, changed);
+    const double middle = MPI_Wtime();
+    seconds["activation"] += middle - begin;
+
+    if (scheme.dynamic)
+      {
+        assemble_mass(step_points, background.window(), nodes, mass);
+        blend_mass(scene.transfer.lumping, mass, nodes.n_local());
+        mapping.reinit(background, nodes, conditions, mass, changed);
+        nodal_mass.assign(nodes.n_local(), 0.);
+        add_scalars_to_nodes(
+          step_points, background.window(), nodes, step_points.mass, 1, nodal_mass);
+        nodes.add_to_owners(nodal_mass, 1);
+        nodes.update_ghosts(nodal_mass, 1);
+      }
+    seconds["transfer"] += MPI_Wtime() - middle;
+    activated = true;
+  }
+
+
+
+  template <int dim>
+  StepReport
+  StepEngine<dim>::try_step(const double t, const double dt)
+  {
+    StepReport report;
+    step_t  = t;
+    step_dt = dt;
+    activate();
+
+    double             begin  = MPI_Wtime();
+    const LinearStatus mapped = particle_to_grid(t, dt);
+    if (!mapped.success)
+      {
+        report.hopeless = true;
+        report.cause    = "the mass matrix cannot be solved: " + mapped.cause;
+        return report;
+      }
+    apply_external_forces(scheme.load_time(t, dt));
+    predict(dt);
+    seconds["transfer"] += MPI_Wtime() - begin;
+
+    problem.start(nodal, t, dt);
+    report.newton = solve_newton(problem, scene.newton);
+    report.cause  = report.newton.cause;
+    if (!report.newton.converged)
+      return report;
+
+    begin           = MPI_Wtime();
+    report.cause    = check_points();
+    report.accepted = report.cause.empty();
+    seconds["history update"] += MPI_Wtime() - begin;
+    return report;
+  }
+
+
+
+  template <int dim>
+  LinearStatus
+  StepEngine<dim>::particle_to_grid(const double t, const double dt)
+  {
+    const std::size_t size = std::size_t(nodes.n_local()) * dim;
+    nodal.velocity_n.assign(size, 0.);
+    nodal.acceleration_n.assign(size, 0.);
+    if (!scheme.dynamic)
+      return {};
+
+    const auto &window = background.window();
+    if (conditions.any_moving())
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+        for (int d = 0; d < dim; ++d)
+          if (conditions.prescribed(i, d))
+            nodal.velocity_n[std::size_t(i) * dim + d] =
+              conditions.velocity(i, d, t, t + 1e-6 * dt);
+
+    const auto project = [&](const std::vector<dealii::Tensor<1, dim>> &at_points,
+                             std::vector<double>                       &at_nodes) {
+      std::vector<double> momentum(size, 0.);
+      add_to_nodes(step_points, window, nodes, step_points.mass, at_points, momentum);
+      nodes.add_to_owners(momentum, dim);
+      return mapping.solve(background, nodes, mass, momentum, at_nodes);
+    };
+    LinearStatus status = project(step_points.velocity, nodal.velocity_n);
+    if (status.success && scheme.carries_acceleration)
+      status = project(step_points.acceleration, nodal.acceleration_n);
+    return status;
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::apply_external_forces(const double t)
+  {
+    nodal.external_force.assign(std::size_t(nodes.n_local()) * dim, 0.);
+    if (loads.empty())
+      return;
+    loads.force(step_points, t, point_forces);
+    const std::vector<double> ones(step_points.size(), 1.);
+    add_to_nodes(
+      step_points, background.window(), nodes, ones, point_forces, nodal.external_force);
+    nodes.add_to_owners(nodal.external_force, dim);
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::predict(const double dt)
+  {
+    nodal.displacement.assign(std::size_t(nodes.n_local()) * dim, 0.);
+    if (!scheme.dynamic)
+      return;
+    std::vector<double> momentum(nodal.displacement.size(), 0.);
+    add_to_nodes(step_points,
+                 background.window(),
+                 nodes,
+                 step_points.mass,
+                 step_points.velocity,
+                 momentum);
+    nodes.add_to_owners(momentum, dim);
+    nodes.update_ghosts(momentum, dim);
+    double heaviest = 0.;
+    for (const double m : nodal_mass)
+      heaviest = std::max(heaviest, m);
+    heaviest = dealii::Utilities::MPI::max(heaviest, communicator);
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        {
+          const std::size_t k     = std::size_t(i) * dim + d;
+          const bool        light = nodal_mass[i] < light_node * heaviest;
+          const double      mean  = nodal_mass[i] > 0. ? momentum[k] / nodal_mass[i] : 0.;
+          nodal.displacement[k]   = dt * (light ? mean : nodal.velocity_n[k]);
+        }
+  }
+
+
+
+  template <int dim>
+  std::string
+  StepEngine<dim>::check_points()
+  {
+    const auto        &window = background.window();
+    const unsigned int failed = evaluate_point_updates(
+      material_of_body, step_points, window, nodes, nodal.displacement, updates);
+    interpolate_to_points(step_points, window, nodes, nodal.displacement, point_displacements);
+
+    std::ostringstream cause;
+    if (failed != PointStatus::none)
+      cause << "material point " << step_points.id[failed] << " at ("
+            << step_points.location[failed] << ") has det F <= 0 at the end of the step";
+    else
+      for (unsigned int slot = 0; slot < step_points.size(); ++slot)
+        {
+          const auto x = step_points.location[slot] + point_displacements[slot];
+          if (background.lattice().contains(x))
+            continue;
+          cause << "material point " << step_points.id[slot] << " leaves the background grid at ("
+                << x << "), displaced by (" << point_displacements[slot]
+                << ") in this step; enlarge the grid (Grid/Origin, Grid/Extent)";
+          break;
+        }
+    const bool any =
+      dealii::Utilities::MPI::logical_or(!cause.str().empty(), communicator);
+    return any && cause.str().empty() ? "a material point of another rank cannot be updated" :
+                                        cause.str();
+  }
+
+
+
+  template <int dim>
+  double
+  StepEngine<dim>::cfl_step(const StepSizeKind kind)
+  {
+    if (kind == StepSizeKind::cfl_initial)
+      {
+        double slowness = std::numeric_limits<double>::max();
+        for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+          slowness = std::min(slowness,
+                              std::sqrt(scene.materials[scene.bodies[b].material].density /
+                                        p_wave_modulus(material_of_body[b])));
+        return background.lattice().smallest_cell_size() * slowness;
+      }
+    activate();
+    const bool          by_density = kind == StepSizeKind::cfl_density;
+    std::vector<double> at_points(3 * std::size_t(step_points.size()));
+    for (const auto &batch : step_points.batches)
+      for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+        {
+          double volume = step_points.volume[slot];
+          if (!by_density) // (3.128) sums the present volume
+            volume *= step_points.determinant[slot];
+          double *values = &at_points[3 * std::size_t(slot)];
+          values[0]      = by_density ?
+                             step_points.mass[slot] /
+                          (step_points.volume[slot] * step_points.determinant[slot]) :
+                             step_points.mass[slot];
+          values[1]      = by_density ? 0. : volume;
+          values[2]      = p_wave_modulus(material_of_body[batch.body]);
+        }
+    std::vector<double> at_nodes(3 * std::size_t(nodes.n_local()), 0.);
+    add_scalars_to_nodes(step_points, background.window(), nodes, at_points, 3, at_nodes);
+    nodes.add_to_owners(at_nodes, 3);
+    double square = std::numeric_limits<double>::max();
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      {
+        const double *s = &at_nodes[3 * std::size_t(i)];
+        if (s[2] > 0.)
+          square = std::min(square, s[0] / ((by_density ? 1. : s[1]) * s[2]));
+      }
+    square = dealii::Utilities::MPI::min(square, communicator);
+    return background.lattice().smallest_cell_size() * std::sqrt(square);
+  }
+
+
+
+  template <int dim>
+  std::map<std::string, double>
+  StepEngine<dim>::phase_seconds() const
+  {
+    auto result            = seconds;
+    result["residual"]     = problem.timings().residual;
+    result["tangent"]      = problem.timings().tangent;
+    result["linear solve"] = problem.timings().linear_solve;
+    return result;
+  }
+} // namespace kedge
+
+namespace kedge
+{
+  template class StepEngine<2>;
+  template class StepEngine<3>;
+} // namespace kedge

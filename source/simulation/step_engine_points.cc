@@ -1,0 +1,287 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/simulation/step_engine.h>
+
+namespace kedge
+{
+  template <int dim>
+  void
+  StepEngine<dim>::create_points()
+  {
+    generated.clear();
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      {
+        auto of_body = generate_points(scene.bodies[b],
+                                       b,
+                                       scene.materials[scene.bodies[b].material].density,
+                                       background.lattice(),
+                                       scene.constants,
+                                       generated.size());
+        generated.insert(generated.end(), of_body.begin(), of_body.end());
+      }
+    check_overlaps();
+    loads.attach(generated, body_names);
+
+    std::vector<PointRecord<dim>> records;
+    for (const auto &point : generated)
+      records.push_back(point.record);
+    covered = {};
+    weights.clear();
+    cover_points(records);
+    // every rank made all points: only one may hand them out
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+      records.clear();
+    cloud.distribute(background, records);
+    activated = false;
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::check_overlaps() const
+  {
+    for (const auto &point : generated)
+      for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+        {
+          const auto own = static_cast<unsigned int>(point.record.state.body);
+          if (b == own || !scene.bodies[b].geometry->contains(point.record.location))
+            continue;
+          std::ostringstream message;
+          message << "Bodies '" << scene.bodies[own].name << "' and '" << scene.bodies[b].name
+                  << "' overlap: a material point of the first, at (" << point.record.location
+                  << "), lies in the second. Change Bodies/" << scene.bodies[b].name
+                  << "/Geometry.";
+          throw UserError(message.str());
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::cover_points(const std::vector<PointRecord<dim>> &records)
+  {
+    const auto       &lattice = background.lattice();
+    LatticeIndex<dim> low, high;
+    low.fill(std::numeric_limits<int>::max());
+    high.fill(std::numeric_limits<int>::min());
+    for (const auto &record : records)
+      {
+        const auto cell = lattice.cell_of(record.location);
+        for (int d = 0; d < dim; ++d)
+          {
+            low[d]  = std::min(low[d], cell[d]);
+            high[d] = std::max(high[d], cell[d]);
+          }
+      }
+    MPI_Allreduce(MPI_IN_PLACE, low.data(), dim, MPI_INT, MPI_MIN, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, high.data(), dim, MPI_INT, MPI_MAX, communicator);
+
+    covered.low = low;
+    for (int d = 0; d < dim; ++d)
+      covered.n_cells[d] = high[d] - low[d] + 1;
+    weights.clear();
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+      {
+        weights.assign(covered.n_cells_total(), 0);
+        for (const auto &record : records)
+          ++weights[covered.cell_number(lattice.cell_of(record.location))];
+        MPI_Allreduce(MPI_IN_PLACE,
+                      weights.data(),
+                      static_cast<int>(weights.size()),
+                      MPI_UNSIGNED,
+                      MPI_SUM,
+                      communicator);
+      }
+    background.cover(covered, weights);
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::restore_points(const std::vector<PointRecord<dim>> &records,
+                                  const LatticeWindow<dim>            &covered_cells,
+                                  const std::vector<unsigned int>     &covered_weights)
+  {
+    covered = covered_cells;
+    weights = covered_weights;
+    background.cover(covered, weights);
+    cloud.distribute(background, records);
+    activated = false;
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::forget_generated_points()
+  {
+    generated.clear();
+    generated.shrink_to_fit();
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::follow_points()
+  {
+    bool close = false, outside = false;
+    cloud.for_each([&](const unsigned int,
+                       const std::uint64_t,
+                       const dealii::Point<dim> &x,
+                       const PointState<dim> &) {
+      const auto cell = background.lattice().cell_of(x);
+      close           = close || background.too_close_to_border(cell);
+      outside         = outside || !background.window().contains_cell(cell);
+    });
+    if (dealii::Utilities::MPI::logical_or(close || outside, communicator))
+      {
+        const auto records = cloud.records();
+        cover_points(records);
+        cloud.distribute(background, records);
+        return;
+      }
+    const std::uint64_t missing = cloud.relocate(background);
+    AssertThrow(missing == 0,
+                dealii::ExcMessage(std::to_string(missing) +
+                                   " material points were lost while they were sorted into "
+                                   "the cells of the background grid."));
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::accept_step()
+  {
+    const double begin  = MPI_Wtime();
+    const auto  &window = background.window();
+    double       work   = 0.;
+    if (!loads.empty())
+      {
+        // over the step a load does the work of its value in the middle
+        loads.force(step_points, step_t + 0.5 * step_dt, point_forces);
+        for (unsigned int slot = 0; slot < step_points.size(); ++slot)
+          work += point_forces[slot] * point_displacements[slot];
+      }
+    step_work = dealii::Utilities::MPI::sum(work, communicator);
+    if (conditions.any_moving())
+      step_work += problem.reaction_work();
+
+    if (scheme.dynamic)
+      {
+        std::vector<double> v_end(nodal.displacement.size()), change(v_end.size()), a_end;
+        for (std::size_t i = 0; i < v_end.size(); ++i)
+          {
+            v_end[i]  = scheme.end_velocity(nodal.displacement[i],
+                                           nodal.velocity_n[i],
+                                           nodal.acceleration_n[i],
+                                           step_dt);
+            change[i] = v_end[i] - nodal.velocity_n[i];
+          }
+        const bool flip = scene.transfer.velocity_mapping == VelocityUpdate::flip;
+        interpolate_to_points(
+          step_points, window, nodes, flip ? change : v_end, velocity_changes);
+        if (scheme.carries_acceleration)
+          {
+            a_end.resize(v_end.size());
+            for (std::size_t i = 0; i < v_end.size(); ++i)
+              a_end[i] = scheme.end_acceleration(nodal.displacement[i],
+                                                 nodal.velocity_n[i],
+                                                 nodal.acceleration_n[i],
+                                                 step_dt);
+            interpolate_to_points(step_points, window, nodes, a_end, accelerations);
+          }
+      }
+
+    cloud.update_each(
+      [&](const unsigned int number, dealii::Point<dim> &location, PointState<dim> &state) {
+        const unsigned int slot = step_points.slot_of[number];
+        location += point_displacements[slot];
+        state.displacement += point_displacements[slot];
+        apply_point_update(updates[slot], state);
+        if (scheme.dynamic)
+          update_velocities(slot, state);
+      });
+    follow_points();
+    activated = false;
+    seconds["history update"] += MPI_Wtime() - begin;
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::update_velocities(const unsigned int slot, PointState<dim> &state) const
+  {
+    if (scene.transfer.velocity_mapping == VelocityUpdate::flip)
+      state.velocity += velocity_changes[slot];
+    else
+      state.velocity = velocity_changes[slot];
+    if (scheme.carries_acceleration)
+      state.acceleration = accelerations[slot];
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::write_books(HistoryRow &row)
+  {
+    activate();
+    // sums in the order of the slots, which does not depend on how the run got here
+    enum
+    {
+      kinetic,
+      strain,
+      mass_sum,
+      linear,
+      angular    = linear + 3,
+      n_sums     = angular + 3
+    };
+    double sums[n_sums] = {}, min_det = std::numeric_limits<double>::max();
+    std::vector<double> energy(step_points.size());
+    cloud.for_each([&](const unsigned int number,
+                       const std::uint64_t,
+                       const dealii::Point<dim> &,
+                       const PointState<dim> &state) {
+      energy[step_points.slot_of[number]] = state.reference_volume * state.strain_energy;
+    });
+    for (unsigned int slot = 0; slot < step_points.size(); ++slot)
+      {
+        const double m    = step_points.mass[slot];
+        double       x[3] = {0, 0, 0}, p[3] = {0, 0, 0};
+        for (int d = 0; d < dim; ++d)
+          {
+            x[d] = step_points.location[slot][d];
+            p[d] = m * step_points.velocity[slot][d];
+            sums[linear + d] += p[d];
+          }
+        sums[kinetic] += 0.5 * m * step_points.velocity[slot].norm_square();
+        sums[strain] += energy[slot];
+        sums[mass_sum] += m;
+        sums[angular + 0] += x[1] * p[2] - x[2] * p[1];
+        sums[angular + 1] += x[2] * p[0] - x[0] * p[2];
+        sums[angular + 2] += x[0] * p[1] - x[1] * p[0];
+        min_det = std::min(min_det, step_points.determinant[slot]);
+      }
+    MPI_Allreduce(MPI_IN_PLACE, sums, n_sums, MPI_DOUBLE, MPI_SUM, communicator);
+    row.kinetic_energy = sums[kinetic];
+    row.strain_energy  = sums[strain];
+    row.mass           = sums[mass_sum];
+    for (int d = 0; d < 3; ++d)
+      {
+        row.linear_momentum[d]  = sums[linear + d];
+        row.angular_momentum[d] = sums[angular + d];
+      }
+    row.min_det_F      = dealii::Utilities::MPI::min(min_det, communicator);
+    row.n_points       = cloud.n_global();
+    row.n_active_cells = dealii::Utilities::MPI::sum(step_points.n_cells, communicator);
+    row.n_dofs         = problem.n_equations();
+  }
+
+  template class StepEngine<2>;
+  template class StepEngine<3>;
+} // namespace kedge
