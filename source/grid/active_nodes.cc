@@ -96,8 +96,8 @@ namespace kedge
     for (const auto &[owner, nodes] : ghosts)
       window_nodes.insert(window_nodes.end(), nodes.begin(), nodes.end());
 
-    bool changed = generation != grid.generation() || nodes_before != window_nodes ||
-                   n_owned_before != n_owned_;
+    bool changed =
+      generation != grid.generation() || nodes_before != window_nodes || n_owned_before != n_owned_;
     if (n_ranks > 1)
       changed = dealii::Utilities::MPI::logical_or(changed, communicator_);
     if (changed)
@@ -106,10 +106,9 @@ namespace kedge
         local_numbers.assign(reached.size(), -1);
         for (unsigned int i = 0; i < window_nodes.size(); ++i)
           local_numbers[window_nodes[i]] = i;
-        n_global_ =
-          n_ranks > 1 ?
-            dealii::Utilities::MPI::sum<std::uint64_t>(n_owned_, communicator_) :
-            n_owned_;
+        n_global_ = n_ranks > 1
+                      ? dealii::Utilities::MPI::sum<std::uint64_t>(n_owned_, communicator_)
+                      : n_owned_;
       }
     for (auto &neighbour : neighbours) // window numbers become local ones
       {
@@ -226,14 +225,17 @@ namespace kedge
 
   template <int dim>
   void
-  ActiveNodes<dim>::update_ghosts(std::vector<std::int64_t> &values,
-                                  const unsigned int         width) const
+  ActiveNodes<dim>::update_ghosts(std::vector<std::int64_t> &values, const unsigned int width) const
   {
     if (!neighbours.empty())
-      exchange<std::int64_t>(
-        values, width, false, [&](const unsigned int node, const std::int64_t *row) {
-          std::copy(row, row + width, values.begin() + std::size_t(node) * width);
-        });
+      exchange<std::int64_t>(values,
+                             width,
+                             false,
+                             [&](const unsigned int node, const std::int64_t *row) {
+                               std::copy(row,
+                                         row + width,
+                                         values.begin() + std::size_t(node) * width);
+                             });
   }
 
 

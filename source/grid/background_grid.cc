@@ -35,9 +35,9 @@ namespace kedge
     ++generation_;
     for (int d = 0; d < dim; ++d)
       {
-        const int spread   = std::max(window_margin, cells.n_cells[d] / 8);
-        window_.low[d]     = std::max(0, cells.low[d] - spread);
-        const int end      = std::min(lattice_.n_cells[d], cells.low[d] + cells.n_cells[d] + spread);
+        const int spread = std::max(window_margin, cells.n_cells[d] / 8);
+        window_.low[d]   = std::max(0, cells.low[d] - spread);
+        const int end    = std::min(lattice_.n_cells[d], cells.low[d] + cells.n_cells[d] + spread);
         window_.n_cells[d] = std::max(2, end - window_.low[d]); // room for three nodes
       }
     n_refinements = 0;
@@ -80,9 +80,9 @@ namespace kedge
         // an empty cell weighs 1, so that empty regions are shared out too
         const auto weight = [&](const auto &cell, const auto) -> unsigned int {
           const LatticeIndex<dim> index = lattice_.cell_of(cell->center());
-          return 1u + (weighted_cells.contains_cell(index) ?
-                         1000u * weights[weighted_cells.cell_number(index)] :
-                         0u);
+          return 1u + (weighted_cells.contains_cell(index)
+                         ? 1000u * weights[weighted_cells.cell_number(index)]
+                         : 0u);
         };
         const auto connection = triangulation_->signals.weight.connect(weight);
         triangulation_->repartition();
@@ -137,7 +137,7 @@ namespace kedge
             LatticeIndex<dim> node;
             for (int d = 0; d < dim; ++d)
               node[d] = static_cast<int>(std::lround(lattice_.scaled(cell->vertex(v)[d], d)));
-            const auto dof = cell->vertex_dof_index(v, 0);
+            const auto dof                         = cell->vertex_dof_index(v, 0);
             node_owners[window_.node_number(node)] = static_cast<unsigned int>(
               std::upper_bound(first_of_next.begin(), first_of_next.end(), dof) -
               first_of_next.begin());

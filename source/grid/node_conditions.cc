@@ -10,9 +10,8 @@ namespace kedge
 
 
   template <int dim>
-  NodeConditions<dim>::NodeConditions(
-    const std::vector<NodeConditionParameters<dim>> &parameters,
-    const std::map<std::string, double>             &constants)
+  NodeConditions<dim>::NodeConditions(const std::vector<NodeConditionParameters<dim>> &parameters,
+                                      const std::map<std::string, double>             &constants)
   {
     for (const auto &p : parameters)
       {
@@ -65,9 +64,7 @@ namespace kedge
     condition_of.assign(std::size_t(nodes.n_local()) * dim, -1);
     for (unsigned int c = 0; c < conditions.size(); ++c)
       for (unsigned int i = 0; i < nodes.n_local(); ++i)
-        if (applies(conditions[c],
-                    grid.lattice(),
-                    grid.window().node_index(nodes.window_node(i))))
+        if (applies(conditions[c], grid.lattice(), grid.window().node_index(nodes.window_node(i))))
           for (int d = 0; d < dim; ++d)
             if (conditions[c].motions[d].kind != ConditionKind::free)
               condition_of[std::size_t(i) * dim + d] = c;

@@ -11,9 +11,9 @@ namespace kedge
     template <int dim>
     struct SubCells
     {
-      Lattice<dim>              lattice;
-      std::array<int, dim>      per_cell;
-      LatticeIndex<dim>         low, high;
+      Lattice<dim>         lattice;
+      std::array<int, dim> per_cell;
+      LatticeIndex<dim>    low, high;
 
       dealii::Point<dim>
       centre(const LatticeIndex<dim> &sub) const
@@ -96,10 +96,10 @@ namespace kedge
 
     template <int dim>
     PointState<dim>
-    state_at_rest(const SubCells<dim>                   &sub_cells,
-                  const dealii::Point<dim>              &x,
-                  const unsigned int                     body_index,
-                  const double                           density,
+    state_at_rest(const SubCells<dim>                            &sub_cells,
+                  const dealii::Point<dim>                       &x,
+                  const unsigned int                              body_index,
+                  const double                                    density,
                   const std::array<Expression, std::size_t(dim)> &velocity)
     {
       PointState<dim> state;

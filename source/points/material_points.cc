@@ -35,8 +35,7 @@ namespace kedge
     /** Sends each record to the rank that owns its cell. */
     template <int dim>
     std::vector<PointRecord<dim>>
-    send_to_owners(const BackgroundGrid<dim>           &grid,
-                   const std::vector<PointRecord<dim>> &records)
+    send_to_owners(const BackgroundGrid<dim> &grid, const std::vector<PointRecord<dim>> &records)
     {
       const std::vector<unsigned int>             owners = cell_owners(grid);
       std::map<unsigned int, std::vector<double>> outgoing;
@@ -97,13 +96,13 @@ namespace kedge
     dealii::Point<dim> unit;
     for (int d = 0; d < dim; ++d)
       unit[d] = grid.lattice().scaled(record.location[d], d) - cell[d];
-    handler->insert_particle(
-      record.location,
-      unit,
-      record.id,
-      grid.cell_iterator(cell),
-      dealii::ArrayView<const double>(reinterpret_cast<const double *>(&record.state),
-                                      n_state_values<dim>));
+    handler->insert_particle(record.location,
+                             unit,
+                             record.id,
+                             grid.cell_iterator(cell),
+                             dealii::ArrayView<const double>(reinterpret_cast<const double *>(
+                                                               &record.state),
+                                                             n_state_values<dim>));
   }
 
 
@@ -117,7 +116,9 @@ namespace kedge
     for_each([&](const unsigned int,
                  const std::uint64_t       id,
                  const dealii::Point<dim> &location,
-                 const PointState<dim>    &state) { result.push_back({id, location, state}); });
+                 const PointState<dim>    &state) {
+      result.push_back({id, location, state});
+    });
     return result;
   }
 
@@ -147,8 +148,7 @@ namespace kedge
     for (const auto &[particle, cell] : movers)
       {
         (void)cell;
-        copies.push_back(
-          {particle->get_id(), particle->get_location(), state_of(*particle)});
+        copies.push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
         leaving.push_back(particle);
       }
     handler->remove_particles(leaving);

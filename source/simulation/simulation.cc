@@ -36,8 +36,9 @@ namespace kedge
     else
       start_fresh();
     engine.forget_generated_points();
-    run_on_root(communicator,
-                [&] { replace_file(folder.path("parameters.prm"), scene.parameters); });
+    run_on_root(communicator, [&] {
+      replace_file(folder.path("parameters.prm"), scene.parameters);
+    });
   }
 
 
@@ -61,13 +62,17 @@ namespace kedge
     if (scene.output.grid)
       grid_output = std::make_unique<GridOutput<dim>>(folder);
     if (scene.newton.log && folder.is_root())
-      newton_log = std::make_unique<CsvFile>(
-        folder.path("newton.csv"),
-        std::vector<std::string>{"step", "time", "accepted", "iteration", "residual", "correction"});
+      newton_log = std::make_unique<CsvFile>(folder.path("newton.csv"),
+                                             std::vector<std::string>{"step",
+                                                                      "time",
+                                                                      "accepted",
+                                                                      "iteration",
+                                                                      "residual",
+                                                                      "correction"});
 
     engine.write_books(row);
-    row.time              = clock.time();
-    totals.initial_energy = row.total_energy();
+    row.time                = clock.time();
+    totals.initial_energy   = row.total_energy();
     totals.next_output_time = clock.time();
     folder.log() << "kedge: " << (scene.title.empty() ? scene.name : scene.title) << "\n  "
                  << row.n_points << " material points in " << row.n_active_cells << " cells, "
@@ -143,8 +148,7 @@ namespace kedge
                        totals.initial_energy - row.external_work;
     row.wall_time           = wall_time();
     totals.rejected_pending = 0;
-    totals.points_times_steps +=
-      static_cast<double>(row.n_points) * step.newton.iterations;
+    totals.points_times_steps += static_cast<double>(row.n_points) * step.newton.iterations;
 
     const double begin = MPI_Wtime();
     if (newton_log)
@@ -174,8 +178,9 @@ namespace kedge
     const bool   cut  = !step.hopeless && clock.cut_step();
     folder.log() << "  step of " << size << " s at t = " << clock.time()
                  << " s rejected: " << step.cause
-                 << (cut ? "; trying half of it" :
-                           (step.hopeless ? "" : "; the step is at its floor")) << std::endl;
+                 << (cut ? "; trying half of it"
+                         : (step.hopeless ? "" : "; the step is at its floor"))
+                 << std::endl;
     return cut;
   }
 
@@ -194,26 +199,26 @@ namespace kedge
 
     RunSummary summary;
     if (finished)
-      summary.checks = evaluate_checks<dim>(
-        scene.checks, folder, engine.points().records(), scene.constants);
-    summary.versions           = software_versions();
-    summary.scene              = scene.name;
-    summary.title              = scene.title;
-    summary.status             = status;
-    summary.reason             = reason;
-    summary.dim                = dim;
-    summary.n_ranks            = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    summary.counts             = {{"material_points", row.n_points},
-                                  {"active_cells", row.n_active_cells},
-                                  {"dofs", row.n_dofs}};
-    summary.n_steps            = clock.n_steps();
+      summary.checks =
+        evaluate_checks<dim>(scene.checks, folder, engine.points().records(), scene.constants);
+    summary.versions            = software_versions();
+    summary.scene               = scene.name;
+    summary.title               = scene.title;
+    summary.status              = status;
+    summary.reason              = reason;
+    summary.dim                 = dim;
+    summary.n_ranks             = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    summary.counts              = {{"material_points", row.n_points},
+                                   {"active_cells", row.n_active_cells},
+                                   {"dofs", row.n_dofs}};
+    summary.n_steps             = clock.n_steps();
     summary.n_newton_iterations = totals.newton;
     summary.n_linear_iterations = totals.linear;
     summary.n_rejected_attempts = totals.rejected;
-    summary.wall_seconds       = wall_time();
-    summary.cpu_seconds        = cpu_seconds(communicator);
-    summary.phase_wall_seconds = engine.phase_seconds();
-    double in_steps            = 0.;
+    summary.wall_seconds        = wall_time();
+    summary.cpu_seconds         = cpu_seconds(communicator);
+    summary.phase_wall_seconds  = engine.phase_seconds();
+    double in_steps             = 0.;
     for (const auto &phase : summary.phase_wall_seconds)
       in_steps += phase.second;
     summary.phase_wall_seconds["output"] = output_seconds;

@@ -54,10 +54,10 @@ namespace kedge
             if (parameters.face_mean)
               {
                 if ((point.exposed_sides >> parameters.side) & 1u)
-                  probe.points.emplace_back(
-                    point.record.id,
-                    state.reference_volume /
-                      (2. * state.reference_half_lengths[parameters.side / 2]));
+                  probe.points.emplace_back(point.record.id,
+                                            state.reference_volume /
+                                              (2. *
+                                               state.reference_half_lengths[parameters.side / 2]));
                 continue;
               }
             const double distance = point.record.location.distance_square(parameters.place);
@@ -133,7 +133,7 @@ namespace kedge
         grid.lattice().node_position(grid.window().node_index(nodes.window_node(i))));
     for (unsigned int c = 0; c < grid.window().n_cells_total(); ++c)
       {
-        const auto cell = grid.window().cell_index(c);
+        const auto                           cell = grid.window().cell_index(c);
         std::array<unsigned int, (1 << dim)> vertices;
         bool                                 complete = true;
         for (unsigned int v = 0; v < (1u << dim); ++v)
@@ -158,11 +158,12 @@ namespace kedge
   Simulation<dim>::write_checkpoint_if_due()
   {
     const OutputParameters &output = scene.output;
-    bool                    due    = output.checkpoint_every_steps > 0 &&
-               clock.n_steps() % output.checkpoint_every_steps == 0;
+    bool                    due =
+      output.checkpoint_every_steps > 0 && clock.n_steps() % output.checkpoint_every_steps == 0;
     if (!due && output.checkpoint_interval > 0.)
-      due = dealii::Utilities::MPI::logical_or(
-        wall_time() - last_checkpoint_wall > output.checkpoint_interval, communicator);
+      due = dealii::Utilities::MPI::logical_or(wall_time() - last_checkpoint_wall >
+                                                 output.checkpoint_interval,
+                                               communicator);
     if (due)
       write_checkpoint();
   }
@@ -257,8 +258,9 @@ namespace kedge
                                                 data.counters.at("probes_position"));
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output, n_points_written);
     if (scene.output.grid)
-      grid_output = std::make_unique<GridOutput<dim>>(
-        folder, static_cast<unsigned int>(data.counters.at("grid_written")));
+      grid_output = std::make_unique<GridOutput<dim>>(folder,
+                                                      static_cast<unsigned int>(
+                                                        data.counters.at("grid_written")));
     row.step          = clock.n_steps();
     row.time          = clock.time();
     row.external_work = totals.external_work;
@@ -277,9 +279,9 @@ namespace kedge
     engine.create_points();
     HistoryRow row;
     engine.write_books(row);
-    const double step = scene.time.step_kind == StepSizeKind::fixed ?
-                          scene.time.step :
-                          scene.time.cfl_factor * engine.cfl_step(scene.time.step_kind);
+    const double step = scene.time.step_kind == StepSizeKind::fixed
+                          ? scene.time.step
+                          : scene.time.cfl_factor * engine.cfl_step(scene.time.step_kind);
 
     std::vector<std::uint64_t> points_of_body(scene.bodies.size(), 0);
     for (const auto &point : engine.generated_points())

@@ -66,8 +66,8 @@ namespace kedge
             scene.tractions,
             scene.constants)
     , problem(InternalForce<dim>(material_of_body,
-                                 scheme.conserving_stress ? StressRule::conserving :
-                                                            StressRule::at_configuration,
+                                 scheme.conserving_stress ? StressRule::conserving
+                                                          : StressRule::at_configuration,
                                  scheme.alpha_f),
               scheme,
               scene.linear_solver,
@@ -104,8 +104,12 @@ namespace kedge
         blend_mass(scene.transfer.lumping, mass, nodes.n_local());
         mapping.reinit(background, nodes, conditions, mass, changed);
         nodal_mass.assign(nodes.n_local(), 0.);
-        add_scalars_to_nodes(
-          step_points, background.window(), nodes, step_points.mass, 1, nodal_mass);
+        add_scalars_to_nodes(step_points,
+                             background.window(),
+                             nodes,
+                             step_points.mass,
+                             1,
+                             nodal_mass);
         nodes.add_to_owners(nodal_mass, 1);
         nodes.update_ghosts(nodal_mass, 1);
       }
@@ -139,6 +143,8 @@ namespace kedge
     problem.start(nodal, t, dt);
     report.newton = solve_newton(problem, scene.newton);
     report.cause  = report.newton.cause;
+    if (!report.newton.converged && !problem.warning().empty())
+      report.cause += "; " + problem.warning();
     if (!report.newton.converged)
       return report;
 
@@ -193,8 +199,7 @@ namespace kedge
       return;
     loads.force(step_points, t, point_forces);
     const std::vector<double> ones(step_points.size(), 1.);
-    add_to_nodes(
-      step_points, background.window(), nodes, ones, point_forces, nodal.external_force);
+    add_to_nodes(step_points, background.window(), nodes, ones, point_forces, nodal.external_force);
     nodes.add_to_owners(nodal.external_force, dim);
   }
 
@@ -237,8 +242,12 @@ namespace kedge
   StepEngine<dim>::check_points()
   {
     const auto        &window = background.window();
-    const unsigned int failed = evaluate_point_updates(
-      material_of_body, step_points, window, nodes, nodal.displacement, updates);
+    const unsigned int failed = evaluate_point_updates(material_of_body,
+                                                       step_points,
+                                                       window,
+                                                       nodes,
+                                                       nodal.displacement,
+                                                       updates);
     interpolate_to_points(step_points, window, nodes, nodal.displacement, point_displacements);
 
     std::ostringstream cause;
@@ -256,10 +265,9 @@ namespace kedge
                 << ") in this step; enlarge the grid (Grid/Origin, Grid/Extent)";
           break;
         }
-    const bool any =
-      dealii::Utilities::MPI::logical_or(!cause.str().empty(), communicator);
-    return any && cause.str().empty() ? "a material point of another rank cannot be updated" :
-                                        cause.str();
+    const bool any = dealii::Utilities::MPI::logical_or(!cause.str().empty(), communicator);
+    return any && cause.str().empty() ? "a material point of another rank cannot be updated"
+                                      : cause.str();
   }
 
 
@@ -287,10 +295,9 @@ namespace kedge
           if (!by_density) // (3.128) sums the present volume
             volume *= step_points.determinant[slot];
           double *values = &at_points[3 * std::size_t(slot)];
-          values[0]      = by_density ?
-                             step_points.mass[slot] /
-                          (step_points.volume[slot] * step_points.determinant[slot]) :
-                             step_points.mass[slot];
+          values[0]      = by_density ? step_points.mass[slot] /
+                                     (step_points.volume[slot] * step_points.determinant[slot])
+                                      : step_points.mass[slot];
           values[1]      = by_density ? 0. : volume;
           values[2]      = p_wave_modulus(material_of_body[batch.body]);
         }

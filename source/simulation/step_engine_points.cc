@@ -93,6 +93,7 @@ namespace kedge
                       MPI_SUM,
                       communicator);
       }
+    cloud.clear();
     background.cover(covered, weights);
   }
 
@@ -106,6 +107,7 @@ namespace kedge
   {
     covered = covered_cells;
     weights = covered_weights;
+    cloud.clear();
     background.cover(covered, weights);
     cloud.distribute(background, records);
     activated = false;
@@ -182,8 +184,7 @@ namespace kedge
             change[i] = v_end[i] - nodal.velocity_n[i];
           }
         const bool flip = scene.transfer.velocity_mapping == VelocityUpdate::flip;
-        interpolate_to_points(
-          step_points, window, nodes, flip ? change : v_end, velocity_changes);
+        interpolate_to_points(step_points, window, nodes, flip ? change : v_end, velocity_changes);
         if (scheme.carries_acceleration)
           {
             a_end.resize(v_end.size());
@@ -238,10 +239,10 @@ namespace kedge
       strain,
       mass_sum,
       linear,
-      angular    = linear + 3,
-      n_sums     = angular + 3
+      angular = linear + 3,
+      n_sums  = angular + 3
     };
-    double sums[n_sums] = {}, min_det = std::numeric_limits<double>::max();
+    double              sums[n_sums] = {}, min_det = std::numeric_limits<double>::max();
     std::vector<double> energy(step_points.size());
     cloud.for_each([&](const unsigned int number,
                        const std::uint64_t,

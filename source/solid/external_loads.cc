@@ -82,7 +82,7 @@ namespace kedge
                                         std::vector<GeneratedPoint<dim>> &points,
                                         const std::vector<std::string>   &body_names)
   {
-    const auto                                    &parameters = point_loads[load];
+    const auto                                   &parameters = point_loads[load];
     std::vector<std::pair<double, std::uint64_t>> candidates;
     for (const auto &point : points)
       if (belongs(point, parameters.body, body_names))
@@ -107,9 +107,9 @@ namespace kedge
   {
     const auto &parameters = tractions[traction];
     const int   direction  = static_cast<int>(parameters.side / 2);
-    const auto  where      = parameters.where.empty() ?
-                               Expression(1.) :
-                               Expression(parameters.where, {"x", "y", "z"}, constants);
+    const auto  where      = parameters.where.empty()
+                               ? Expression(1.)
+                               : Expression(parameters.where, {"x", "y", "z"}, constants);
     bool        any        = false;
     for (const auto &point : points)
       if (belongs(point, parameters.body, body_names) &&

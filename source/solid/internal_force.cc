@@ -53,8 +53,12 @@ namespace kedge
     PointStatus status;
     for (const auto &batch : points.batches)
       {
-        const internal::BatchContext<dim> context{
-          points, window, nodes, displacement, batch, fraction};
+        const internal::BatchContext<dim> context{points,
+                                                  window,
+                                                  nodes,
+                                                  displacement,
+                                                  batch,
+                                                  fraction};
         internal::add_batch_force(context, materials[batch.body], stress_rule, force, status);
         if (!status.ok())
           break;
@@ -74,8 +78,12 @@ namespace kedge
   {
     for (const auto &batch : points.batches)
       {
-        const internal::BatchContext<dim> context{
-          points, window, nodes, displacement, batch, fraction};
+        const internal::BatchContext<dim> context{points,
+                                                  window,
+                                                  nodes,
+                                                  displacement,
+                                                  batch,
+                                                  fraction};
         internal::add_batch_stiffness(context, materials[batch.body], stress_rule, stiffness);
       }
   }

@@ -27,9 +27,9 @@ namespace kedge
       double             value[dim][n];
 
       void
-      read(const BatchContext<dim>              &context,
-           const std::array<unsigned int, n>    &offsets,
-           const unsigned int                    first_node)
+      read(const BatchContext<dim>           &context,
+           const std::array<unsigned int, n> &offsets,
+           const unsigned int                 first_node)
       {
         for (int A = 0; A < n; ++A)
           {
@@ -70,22 +70,25 @@ namespace kedge
       void
       run() const
       {
-        constexpr int               n       = stencil_size<dim>(pattern);
-        const auto                  offsets = node_offsets<dim, pattern>(context.window.node_strides());
-        const StepPoints<dim>      &points  = context.points;
+        constexpr int          n       = stencil_size<dim>(pattern);
+        const auto             offsets = node_offsets<dim, pattern>(context.window.node_strides());
+        const StepPoints<dim> &points  = context.points;
         StencilDisplacement<dim, n> u;
         for (unsigned int slot = context.batch.begin; slot < context.batch.end;)
           {
-            const unsigned int first          = points.stencil[slot].first_node;
-            double             sum[dim][n]    = {};
+            const unsigned int first       = points.stencil[slot].first_node;
+            double             sum[dim][n] = {};
             u.read(context, offsets, first);
             for (; slot < context.batch.end && points.stencil[slot].first_node == first; ++slot)
               {
                 const auto basis = expand<dim, pattern>(points.stencil[slot]);
                 double     gradient[dim][dim];
                 displacement_gradient(u, basis, gradient);
-                const ForceStress<dim> stress = evaluate_force_stress<dim, false, rule>(
-                  material, points.stress_state[slot], gradient, context.alpha);
+                const ForceStress<dim> stress =
+                  evaluate_force_stress<dim, false, rule>(material,
+                                                          points.stress_state[slot],
+                                                          gradient,
+                                                          context.alpha);
                 if (!stress.valid)
                   {
                     status.failed_slot = slot;
@@ -154,10 +157,10 @@ namespace kedge
       void
       run() const
       {
-        constexpr int               n       = stencil_size<dim>(pattern);
-        const auto                  offsets = node_offsets<dim, pattern>(context.window.node_strides());
-        const auto                  slots   = pair_slots<dim, pattern>(stiffness);
-        const StepPoints<dim>      &points  = context.points;
+        constexpr int          n       = stencil_size<dim>(pattern);
+        const auto             offsets = node_offsets<dim, pattern>(context.window.node_strides());
+        const auto             slots   = pair_slots<dim, pattern>(stiffness);
+        const StepPoints<dim> &points  = context.points;
         StencilDisplacement<dim, n> u;
         Sum<n>                      sum;
         for (unsigned int slot = context.batch.begin; slot < context.batch.end;)
@@ -170,8 +173,11 @@ namespace kedge
                 const auto basis = expand<dim, pattern>(points.stencil[slot]);
                 double     gradient[dim][dim];
                 displacement_gradient(u, basis, gradient);
-                const ForceStress<dim> stress = evaluate_force_stress<dim, true, rule>(
-                  material, points.stress_state[slot], gradient, context.alpha);
+                const ForceStress<dim> stress =
+                  evaluate_force_stress<dim, true, rule>(material,
+                                                         points.stress_state[slot],
+                                                         gradient,
+                                                         context.alpha);
                 add_point<n>(points.volume[slot], stress, basis, sum);
               }
             for (int A = 0; A < n; ++A)
@@ -198,13 +204,13 @@ namespace kedge
         [&](const auto &m) {
           using M = std::decay_t<decltype(m)>;
           if (rule == StressRule::conserving)
-            dispatch_pattern<dim>(context.batch.pattern,
-                                  ForceKernel<dim, StressRule::conserving, M>{
-                                    context, m, force, status});
+            dispatch_pattern<dim>(
+              context.batch.pattern,
+              ForceKernel<dim, StressRule::conserving, M>{context, m, force, status});
           else
-            dispatch_pattern<dim>(context.batch.pattern,
-                                  ForceKernel<dim, StressRule::at_configuration, M>{
-                                    context, m, force, status});
+            dispatch_pattern<dim>(
+              context.batch.pattern,
+              ForceKernel<dim, StressRule::at_configuration, M>{context, m, force, status});
         },
         material);
     }
@@ -221,12 +227,14 @@ namespace kedge
           using M = std::decay_t<decltype(m)>;
           if (rule == StressRule::conserving)
             dispatch_pattern<dim>(context.batch.pattern,
-                                  StiffnessKernel<dim, StressRule::conserving, M>{
-                                    context, m, stiffness});
+                                  StiffnessKernel<dim, StressRule::conserving, M>{context,
+                                                                                  m,
+                                                                                  stiffness});
           else
             dispatch_pattern<dim>(context.batch.pattern,
-                                  StiffnessKernel<dim, StressRule::at_configuration, M>{
-                                    context, m, stiffness});
+                                  StiffnessKernel<dim, StressRule::at_configuration, M>{context,
+                                                                                        m,
+                                                                                        stiffness});
         },
         material);
     }

@@ -127,14 +127,14 @@ namespace kedge
       state.half_lengths[d] = state.reference_half_lengths[d] * stretch[d];
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                              \
-  template unsigned int evaluate_point_updates(const std::vector<Material> &,               \
-                                               const StepPoints<dim> &,                     \
-                                               const LatticeWindow<dim> &,                  \
-                                               const ActiveNodes<dim> &,                    \
-                                               const std::vector<double> &,                 \
-                                               std::vector<PointUpdate<dim>> &);            \
-  template void apply_point_update(const PointUpdate<dim> &, PointState<dim> &);
+#define KEDGE_INSTANTIATE(dim)                                                   \
+  template unsigned int evaluate_point_updates(const std::vector<Material> &,    \
+                                               const StepPoints<dim> &,          \
+                                               const LatticeWindow<dim> &,       \
+                                               const ActiveNodes<dim> &,         \
+                                               const std::vector<double> &,      \
+                                               std::vector<PointUpdate<dim>> &); \
+  template void         apply_point_update(const PointUpdate<dim> &, PointState<dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 } // namespace kedge

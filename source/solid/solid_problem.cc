@@ -21,6 +21,8 @@ namespace kedge
       double      &sum;
       const double begin;
     };
+    /** Raises the scaled diagonal of a singular tangent; Newton's residual stays exact. */
+    constexpr double singular_shift = 1e-10;
   } // namespace
 
 
@@ -74,6 +76,7 @@ namespace kedge
     this->t_n   = t_n;
     this->dt    = dt;
     from_zero   = false;
+    warning_.clear();
     diagonal.assign(equations.system().n_rows(), 0.);
     internal.resize(state.displacement.size());
     inertia.assign(state.displacement.size(), 0.);
@@ -110,8 +113,10 @@ namespace kedge
     if (scheme.dynamic)
       {
         for (std::size_t i = 0; i < u.size(); ++i)
-          acceleration[i] = scheme.equilibrium_acceleration(
-            u[i], state->velocity_n[i], state->acceleration_n[i], dt);
+          acceleration[i] = scheme.equilibrium_acceleration(u[i],
+                                                            state->velocity_n[i],
+                                                            state->acceleration_n[i],
+                                                            dt);
         multiply(*mass, window, *nodes, dim, acceleration, inertia);
         nodes->add_to_owners(inertia, dim);
       }
@@ -139,9 +144,8 @@ namespace kedge
     if (sums[5] > 0.)
       {
         result.ok    = false;
-        result.cause = status.ok() ?
-                         "a material point of another rank cannot follow the trial step" :
-                         describe_point(status.failed_slot);
+        result.cause = status.ok() ? "a material point of another rank cannot follow the trial step"
+                                   : describe_point(status.failed_slot);
       }
     else if (!std::isfinite(sums[0]))
       {
@@ -173,36 +177,49 @@ namespace kedge
 
 
   template <int dim>
-  LinearStatus
-  SolidProblem<dim>::solve_correction(double &norm)
+  void
+  SolidProblem<dim>::assemble_tangent()
   {
-    {
-      const Stopwatch stopwatch(timings_.tangent);
-      stiffness.set_zero();
-      internal_force.add_stiffness(*points, grid->window(), *nodes, state->displacement, stiffness);
-      if (scheme.dynamic)
-        add_inertia_to_stiffness();
-      equations.fill(*nodes, stiffness);
-      const SparseSystem &system = equations.system();
-      for (unsigned int e = 0; e < system.n_rows(); ++e)
-        for (std::int64_t k = system.row_start[e]; k < system.row_start[e + 1]; ++k)
-          if (system.column[k] == system.first_row + e)
-            diagonal[e] = system.value[k];
-    }
+    const Stopwatch stopwatch(timings_.tangent);
+    stiffness.set_zero();
+    internal_force.add_stiffness(*points, grid->window(), *nodes, state->displacement, stiffness);
+    if (scheme.dynamic)
+      add_inertia_to_stiffness();
+    equations.fill(*nodes, stiffness);
+    const SparseSystem &system = equations.system();
+    for (unsigned int e = 0; e < system.n_rows(); ++e)
+      for (std::int64_t k = system.row_start[e]; k < system.row_start[e + 1]; ++k)
+        if (system.column[k] == system.first_row + e)
+          diagonal[e] = system.value[k];
+  }
+
+
+
+  template <int dim>
+  LinearStatus
+  SolidProblem<dim>::solve_correction(double &norm, const bool keep_tangent)
+  {
+    if (!keep_tangent)
+      assemble_tangent();
 
     const Stopwatch     stopwatch(timings_.linear_solve);
     std::vector<double> right_side, solution;
     equations.gather(residual, right_side);
     for (double &value : right_side)
       value = -value;
-    LinearStatus status = linear_solver.factorise(equations.system());
+    LinearStatus status;
+    if (!keep_tangent)
+      status = linear_solver.factorise(equations.system());
+    if (!status.success && status.equation >= 0)
+      {
+        // barely held nodes: what no force determines stays where it is
+        warning_ = status.cause + describe_equation(status.equation);
+        status   = linear_solver.factorise(equations.system(), singular_shift);
+      }
     if (status.success)
       status = linear_solver.solve(right_side, solution);
     if (!status.success)
-      {
-        status.cause += describe_equation(status.equation);
-        return status;
-      }
+      return status;
     equations.scatter(solution, correction);
     nodes->update_ghosts(correction, dim);
     double square = 0.;
@@ -273,22 +290,22 @@ namespace kedge
   {
     if (equation < 0)
       return "";
-    const SparseSystem &system = equations.system();
+    const SparseSystem &system         = equations.system();
     double              place[dim + 2] = {};
     if (equation >= system.first_row && equation < system.first_row + system.n_rows())
       {
         const unsigned int nodal =
           equations.nodal_index(static_cast<unsigned int>(equation - system.first_row));
-        const auto x = grid->lattice().node_position(
-          grid->window().node_index(nodes->window_node(nodal / dim)));
+        const auto x =
+          grid->lattice().node_position(grid->window().node_index(nodes->window_node(nodal / dim)));
         for (int d = 0; d < dim; ++d)
           place[d] = x[d];
         place[dim] = nodal % dim;
       }
     MPI_Allreduce(MPI_IN_PLACE, place, dim + 2, MPI_DOUBLE, MPI_SUM, nodes->communicator());
     std::ostringstream text;
-    text << ": nothing holds the displacement component " << "xyz"[static_cast<int>(place[dim])]
-         << " of the node at (";
+    text << ": nothing holds the displacement component "
+         << "xyz"[static_cast<int>(place[dim])] << " of the node at (";
     for (int d = 0; d < dim; ++d)
       text << (d > 0 ? ", " : "") << place[d];
     text << "), in the cells around it the body is too thin or too loosely held";

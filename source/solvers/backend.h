@@ -12,7 +12,7 @@ namespace kedge
     virtual ~Backend() = default;
 
     virtual LinearStatus
-    factorise(const SparseSystem &system, const bool new_pattern) = 0;
+    factorise(const SparseSystem &system, const bool new_pattern, const double shift) = 0;
 
     virtual LinearStatus
     solve(const std::vector<double> &b, std::vector<double> &x) = 0;

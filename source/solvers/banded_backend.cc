@@ -84,8 +84,8 @@ namespace kedge
             dgbtrf_(&n, &n, &width, &width, band.data(), &leading, pivots.data(), &info);
           }
         if (info > 0)
-          return LinearStatus::failure(cholesky ? "matrix not positive definite" :
-                                                  "singular matrix",
+          return LinearStatus::failure(cholesky ? "matrix not positive definite"
+                                                : "singular matrix",
                                        info - 1);
         for (int i = 0; i < n; ++i)
           if (std::abs(band[std::size_t(i) * leading + top]) < smallest_pivot)

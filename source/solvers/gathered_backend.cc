@@ -81,7 +81,7 @@ namespace kedge
 
 
   LinearStatus
-  GatheredBackend::factorise(const SparseSystem &system, const bool new_pattern)
+  GatheredBackend::factorise(const SparseSystem &system, const bool new_pattern, const double shift)
   {
     if (new_pattern)
       gather_pattern(system);
@@ -104,7 +104,11 @@ namespace kedge
               scaling[i] = 1. / std::sqrt(std::abs(matrix.value[k]));
         for (int i = 0; i < matrix.n; ++i)
           for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
-            matrix.value[k] *= scaling[i] * scaling[matrix.column[k]];
+            {
+              matrix.value[k] *= scaling[i] * scaling[matrix.column[k]];
+              if (matrix.column[k] == i)
+                matrix.value[k] += shift;
+            }
         status = factorise_gathered(matrix, new_pattern);
       }
     return n_ranks > 1 ? agree(status, communicator, rank) : status;

@@ -14,7 +14,7 @@ namespace kedge
   {
   public:
     LinearStatus
-    factorise(const SparseSystem &system, const bool new_pattern) final;
+    factorise(const SparseSystem &system, const bool new_pattern, const double shift) final;
 
     LinearStatus
     solve(const std::vector<double> &b, std::vector<double> &x) final;

@@ -30,7 +30,7 @@ namespace kedge
       {}
 
       LinearStatus
-      factorise(const SparseSystem &system, const bool) override
+      factorise(const SparseSystem &system, const bool, const double) override
       {
         build_matrix(system);
         try
@@ -61,10 +61,10 @@ namespace kedge
       LinearStatus
       solve(const std::vector<double> &b, std::vector<double> &x) override
       {
-        const IndexSet               rows = matrix.locally_owned_range_indices();
+        const IndexSet                rows = matrix.locally_owned_range_indices();
         TrilinosWrappers::MPI::Vector solution(rows, communicator), right_side(rows, communicator);
-        double *values = right_side.trilinos_vector()[0];
-        double *scale  = scaling->Values();
+        double                       *values = right_side.trilinos_vector()[0];
+        double                       *scale  = scaling->Values();
         for (unsigned int i = 0; i < b.size(); ++i)
           values[i] = b[i] * scale[i];
 
@@ -76,11 +76,14 @@ namespace kedge
             if (norm > 0.)
               {
                 if (traits.positive_definite)
-                  TrilinosWrappers::SolverCG(control).solve(
-                    matrix, solution, right_side, *preconditioner);
+                  TrilinosWrappers::SolverCG(control).solve(matrix,
+                                                            solution,
+                                                            right_side,
+                                                            *preconditioner);
                 else
-                  TrilinosWrappers::SolverGMRES(
-                    control, TrilinosWrappers::SolverGMRES::AdditionalData(false, 60))
+                  TrilinosWrappers::SolverGMRES(control,
+                                                TrilinosWrappers::SolverGMRES::AdditionalData(false,
+                                                                                              60))
                     .solve(matrix, solution, right_side, *preconditioner);
               }
           }
@@ -88,9 +91,8 @@ namespace kedge
           {
             status = LinearStatus::failure("the iterative solver did not reach its tolerance");
           }
-        status.iterations = control.last_step() == numbers::invalid_unsigned_int ?
-                              0 :
-                              control.last_step();
+        status.iterations =
+          control.last_step() == numbers::invalid_unsigned_int ? 0 : control.last_step();
         x.resize(b.size());
         values = solution.trilinos_vector()[0];
         for (unsigned int i = 0; i < x.size(); ++i)
@@ -103,9 +105,9 @@ namespace kedge
       void
       build_matrix(const SparseSystem &system)
       {
-        communicator   = system.communicator;
-        const int    n = static_cast<int>(system.n_rows());
-        Epetra_MpiComm epetra_communicator(communicator);
+        communicator       = system.communicator;
+        const int        n = static_cast<int>(system.n_rows());
+        Epetra_MpiComm   epetra_communicator(communicator);
         const Epetra_Map map(static_cast<int>(system.n_global), n, 0, epetra_communicator);
         std::vector<int> lengths(n);
         for (int i = 0; i < n; ++i)
@@ -116,8 +118,10 @@ namespace kedge
           {
             const std::int64_t begin = system.row_start[i];
             const int          row   = static_cast<int>(system.first_row) + i;
-            epetra.InsertGlobalValues(
-              row, lengths[i], system.value.data() + begin, system.column.data() + begin);
+            epetra.InsertGlobalValues(row,
+                                      lengths[i],
+                                      system.value.data() + begin,
+                                      system.column.data() + begin);
             (*scaling)[i] = 1.;
             for (std::int64_t k = begin; k < system.row_start[i + 1]; ++k)
               if (system.column[k] == row && system.value[k] != 0.)

@@ -15,9 +15,9 @@ namespace kedge
         if (system.row_start[i + 1] > system.row_start[i])
           {
             const std::int64_t row = system.first_row + i;
-            width = std::max({width,
-                              row - system.column[system.row_start[i]],
-                              system.column[system.row_start[i + 1] - 1] - row});
+            width                  = std::max({width,
+                                               row - system.column[system.row_start[i]],
+                                               system.column[system.row_start[i + 1] - 1] - row});
           }
       MPI_Allreduce(MPI_IN_PLACE, &width, 1, MPI_INT64_T, MPI_MAX, system.communicator);
       return width;
@@ -37,8 +37,8 @@ namespace kedge
     double
     umfpack_time(const double n, const int space_dimension)
     {
-      return space_dimension == 2 ? 7e-6 * n * std::pow(std::max(n, 1e3) / 1e4, 0.3) :
-                                    1e-4 * n * std::pow(std::max(n, 1e2) / 1.5e4, 1.1);
+      return space_dimension == 2 ? 7e-6 * n * std::pow(std::max(n, 1e3) / 1e4, 0.3)
+                                  : 1e-4 * n * std::pow(std::max(n, 1e2) / 1.5e4, 1.1);
     }
 
     /** Above these sizes iterative methods win. */
@@ -78,15 +78,15 @@ namespace kedge
         const double n      = static_cast<double>(system.n_global);
         const double banded = banded_time(n, static_cast<double>(bandwidth(system))) *
                               (traits.positive_definite ? 0.3 : 1.);
-        const bool large = system.n_global > (traits.space_dimension == 2 ? largest_direct_2d :
-                                                                            largest_direct_3d);
+        const bool large =
+          system.n_global > (traits.space_dimension == 2 ? largest_direct_2d : largest_direct_3d);
         if (banded < umfpack_time(n, traits.space_dimension))
           kind = LinearSolverKind::banded;
         else if (!large)
           kind = LinearSolverKind::direct;
         else
-          kind = traits.dominated_by_inertia ? LinearSolverKind::krylov_ilu :
-                                               LinearSolverKind::krylov_amg;
+          kind = traits.dominated_by_inertia ? LinearSolverKind::krylov_ilu
+                                             : LinearSolverKind::krylov_amg;
       }
     if (backend && kind == chosen)
       return;
@@ -98,8 +98,7 @@ namespace kedge
           break;
         case LinearSolverKind::krylov_ilu:
         case LinearSolverKind::krylov_amg:
-          backend =
-            make_krylov_backend(parameters, traits, kind == LinearSolverKind::krylov_amg);
+          backend = make_krylov_backend(parameters, traits, kind == LinearSolverKind::krylov_amg);
           break;
         default:
           backend = make_umfpack_backend();
@@ -109,13 +108,13 @@ namespace kedge
 
 
   LinearStatus
-  LinearSolver::factorise(const SparseSystem &system)
+  LinearSolver::factorise(const SparseSystem &system, const double shift)
   {
     if (new_pattern)
       choose(system);
     const bool analyse = new_pattern;
     new_pattern        = false;
-    return backend->factorise(system, analyse);
+    return backend->factorise(system, analyse, shift);
   }
 
 

@@ -14,6 +14,30 @@ namespace kedge
     /** A residual that has grown by this factor will not come back. */
     constexpr double divergence = 1e8;
 
+    /** One correction with the last tangent, taken back if it does not help. */
+    void
+    polish(NewtonProblem &problem, NewtonProblem::Evaluation &evaluation, NewtonReport &report)
+    {
+      double             norm   = 0.;
+      const LinearStatus linear = problem.solve_correction(norm, true);
+      report.linear_iterations += linear.iterations;
+      if (!linear.success || !std::isfinite(norm))
+        return;
+      problem.apply_correction(1.);
+      const NewtonProblem::Evaluation polished = problem.evaluate();
+      if (polished.ok && polished.residual_norm < evaluation.residual_norm)
+        {
+          evaluation = polished;
+          report.residual_norms.push_back(polished.residual_norm);
+          report.correction_norms.push_back(norm);
+        }
+      else
+        {
+          problem.apply_correction(-1.);
+          problem.evaluate();
+        }
+    }
+
     std::string
     iteration_text(const unsigned int iteration)
     {
@@ -52,28 +76,27 @@ namespace kedge
         return report;
       }
 
-    const double first_residual  = evaluation.residual_norm;
-    double       first_product   = 0.;
-    report.residual_norms        = {first_residual};
-    const auto at_round_off      = [&]() {
+    const double first_residual = evaluation.residual_norm;
+    double       first_product  = 0.;
+    report.residual_norms       = {first_residual};
+    const auto at_round_off     = [&]() {
       return evaluation.residual_norm <= round_off * evaluation.scale;
     };
 
     while (report.iterations < parameters.max_iterations)
       {
         double             correction_norm = 0.;
-        const LinearStatus linear          = problem.solve_correction(correction_norm);
+        const LinearStatus linear          = problem.solve_correction(correction_norm, false);
         ++report.iterations;
         report.linear_iterations += linear.iterations;
         if (!linear.success || !std::isfinite(correction_norm))
           {
-            report.cause = (linear.success ? "the linear solver gave a value that is not finite" :
-                                             linear.cause) +
+            report.cause = (linear.success ? "the linear solver gave a value that is not finite"
+                                           : linear.cause) +
                            iteration_text(report.iterations);
             return report;
           }
         evaluation = advance(problem);
-        fprintf(stderr, "DBG it %u r %g du %g ok %d scale %g\n", report.iterations, evaluation.residual_norm, correction_norm, int(evaluation.ok), evaluation.scale);
         report.residual_norms.push_back(evaluation.residual_norm);
         report.correction_norms.push_back(correction_norm);
         if (!evaluation.ok)
@@ -87,6 +110,8 @@ namespace kedge
         if (product < parameters.tolerance * first_product || at_round_off())
           {
             report.converged = true;
+            if (!at_round_off())
+              polish(problem, evaluation, report);
             return report;
           }
         if (evaluation.residual_norm > divergence * first_residual && report.iterations > 2)
@@ -95,8 +120,8 @@ namespace kedge
             return report;
           }
       }
-    report.cause = "no convergence in " + std::to_string(parameters.max_iterations) +
-                   " Newton iterations";
+    report.cause =
+      "no convergence in " + std::to_string(parameters.max_iterations) + " Newton iterations";
     return report;
   }
 } // namespace kedge

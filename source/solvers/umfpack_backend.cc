@@ -79,8 +79,8 @@ namespace kedge
                                             control,
                                             info);
         if (status != UMFPACK_OK)
-          return LinearStatus::failure("UMFPACK could not solve (status " +
-                                       std::to_string(status) + ")");
+          return LinearStatus::failure("UMFPACK could not solve (status " + std::to_string(status) +
+                                       ")");
         x.swap(solution);
         return {};
       }

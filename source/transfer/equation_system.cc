@@ -19,12 +19,10 @@ namespace kedge
     system_.n_global         = n_own;
     if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
       {
-        MPI_Exscan(
-          &n_own, &system_.first_row, 1, MPI_INT64_T, MPI_SUM, nodes.communicator());
+        MPI_Exscan(&n_own, &system_.first_row, 1, MPI_INT64_T, MPI_SUM, nodes.communicator());
         if (dealii::Utilities::MPI::this_mpi_process(nodes.communicator()) == 0)
           system_.first_row = 0;
-        MPI_Allreduce(
-          &n_own, &system_.n_global, 1, MPI_INT64_T, MPI_SUM, nodes.communicator());
+        MPI_Allreduce(&n_own, &system_.n_global, 1, MPI_INT64_T, MPI_SUM, nodes.communicator());
       }
     for (std::int64_t e = 0; e < n_own; ++e)
       number[nodal_of_equation[e]] = system_.first_row + e;
@@ -39,8 +37,8 @@ namespace kedge
                                            const ActiveNodes<dim>    &nodes,
                                            const NodeMatrix<dim>     &matrix) const
   {
-    const unsigned int        width   = matrix.n_slots() * n_components;
-    const auto               &window  = grid.window();
+    const unsigned int        width  = matrix.n_slots() * n_components;
+    const auto               &window = grid.window();
     std::vector<std::int64_t> columns(std::size_t(nodes.n_local()) * width, -1);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       {

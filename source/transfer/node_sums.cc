@@ -7,9 +7,9 @@ namespace kedge
     /** Local numbers of the nodes of a stencil. */
     template <int dim, unsigned int pattern>
     std::array<int, stencil_size<dim>(pattern)>
-    local_nodes(const ActiveNodes<dim>                                             &nodes,
-                const std::array<unsigned int, stencil_size<dim>(pattern)>         &offsets,
-                const unsigned int                                                  first_node)
+    local_nodes(const ActiveNodes<dim>                                     &nodes,
+                const std::array<unsigned int, stencil_size<dim>(pattern)> &offsets,
+                const unsigned int                                          first_node)
     {
       std::array<int, stencil_size<dim>(pattern)> result;
       for (int A = 0; A < stencil_size<dim>(pattern); ++A)
@@ -111,8 +111,7 @@ namespace kedge
   {
     mass.set_zero();
     for (const auto &batch : points.batches)
-      dispatch_pattern<dim>(batch.pattern,
-                            AssembleMass<dim>{points, window, nodes, mass, &batch});
+      dispatch_pattern<dim>(batch.pattern, AssembleMass<dim>{points, window, nodes, mass, &batch});
   }
 
 
@@ -149,13 +148,15 @@ namespace kedge
                const std::vector<dealii::Tensor<1, dim>> &values,
                std::vector<double>                       &sums)
   {
-    for_each_point(
-      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
-        const dealii::Tensor<1, dim> weighted = weights[slot] * values[slot];
-        for (std::size_t A = 0; A < local.size(); ++A)
-          for (int d = 0; d < dim; ++d)
-            sums[std::size_t(local[A]) * dim + d] += basis.value[A] * weighted[d];
-      });
+    for_each_point(points,
+                   window,
+                   nodes,
+                   [&](const unsigned int slot, const auto &local, const auto &basis) {
+                     const dealii::Tensor<1, dim> weighted = weights[slot] * values[slot];
+                     for (std::size_t A = 0; A < local.size(); ++A)
+                       for (int d = 0; d < dim; ++d)
+                         sums[std::size_t(local[A]) * dim + d] += basis.value[A] * weighted[d];
+                   });
   }
 
 
@@ -169,13 +170,15 @@ namespace kedge
                        const unsigned int         n_values,
                        std::vector<double>       &sums)
   {
-    for_each_point(
-      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
-        for (std::size_t A = 0; A < local.size(); ++A)
-          for (unsigned int k = 0; k < n_values; ++k)
-            sums[std::size_t(local[A]) * n_values + k] +=
-              basis.value[A] * values[std::size_t(slot) * n_values + k];
-      });
+    for_each_point(points,
+                   window,
+                   nodes,
+                   [&](const unsigned int slot, const auto &local, const auto &basis) {
+                     for (std::size_t A = 0; A < local.size(); ++A)
+                       for (unsigned int k = 0; k < n_values; ++k)
+                         sums[std::size_t(local[A]) * n_values + k] +=
+                           basis.value[A] * values[std::size_t(slot) * n_values + k];
+                   });
   }
 
 
@@ -189,14 +192,16 @@ namespace kedge
                         std::vector<dealii::Tensor<1, dim>> &at_points)
   {
     at_points.resize(points.size());
-    for_each_point(
-      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
-        dealii::Tensor<1, dim> value;
-        for (std::size_t A = 0; A < local.size(); ++A)
-          for (int d = 0; d < dim; ++d)
-            value[d] += basis.value[A] * nodal[std::size_t(local[A]) * dim + d];
-        at_points[slot] = value;
-      });
+    for_each_point(points,
+                   window,
+                   nodes,
+                   [&](const unsigned int slot, const auto &local, const auto &basis) {
+                     dealii::Tensor<1, dim> value;
+                     for (std::size_t A = 0; A < local.size(); ++A)
+                       for (int d = 0; d < dim; ++d)
+                         value[d] += basis.value[A] * nodal[std::size_t(local[A]) * dim + d];
+                     at_points[slot] = value;
+                   });
   }
 
 
@@ -210,17 +215,19 @@ namespace kedge
                       std::vector<dealii::Tensor<2, dim>> &gradients)
   {
     gradients.resize(points.size());
-    for_each_point(
-      points, window, nodes, [&](const unsigned int slot, const auto &local, const auto &basis) {
-        for (int i = 0; i < dim; ++i)
-          for (int j = 0; j < dim; ++j)
-            {
-              double sum = 0.;
-              for (std::size_t A = 0; A < local.size(); ++A)
-                sum += nodal[std::size_t(local[A]) * dim + i] * basis.gradient[j][A];
-              gradients[slot][i][j] = sum;
-            }
-      });
+    for_each_point(points,
+                   window,
+                   nodes,
+                   [&](const unsigned int slot, const auto &local, const auto &basis) {
+                     for (int i = 0; i < dim; ++i)
+                       for (int j = 0; j < dim; ++j)
+                         {
+                           double sum = 0.;
+                           for (std::size_t A = 0; A < local.size(); ++A)
+                             sum += nodal[std::size_t(local[A]) * dim + i] * basis.gradient[j][A];
+                           gradients[slot][i][j] = sum;
+                         }
+                   });
   }
 
 
@@ -257,39 +264,39 @@ namespace kedge
       }
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                                   \
-  template void assemble_mass(const StepPoints<dim> &,                                           \
-                              const LatticeWindow<dim> &,                                        \
-                              const ActiveNodes<dim> &,                                          \
-                              NodeMatrix<dim> &);                                                \
-  template void blend_mass(const double, NodeMatrix<dim> &, const unsigned int);                 \
-  template void add_to_nodes(const StepPoints<dim> &,                                            \
-                             const LatticeWindow<dim> &,                                         \
-                             const ActiveNodes<dim> &,                                           \
-                             const std::vector<double> &,                                        \
-                             const std::vector<dealii::Tensor<1, dim>> &,                        \
-                             std::vector<double> &);                                             \
-  template void add_scalars_to_nodes(const StepPoints<dim> &,                                    \
-                                     const LatticeWindow<dim> &,                                 \
-                                     const ActiveNodes<dim> &,                                   \
-                                     const std::vector<double> &,                                \
-                                     const unsigned int,                                         \
-                                     std::vector<double> &);                                     \
-  template void interpolate_to_points(const StepPoints<dim> &,                                   \
-                                      const LatticeWindow<dim> &,                                \
-                                      const ActiveNodes<dim> &,                                  \
-                                      const std::vector<double> &,                               \
-                                      std::vector<dealii::Tensor<1, dim>> &);                    \
-  template void gradients_at_points(const StepPoints<dim> &,                                     \
-                                    const LatticeWindow<dim> &,                                  \
-                                    const ActiveNodes<dim> &,                                    \
-                                    const std::vector<double> &,                                 \
-                                    std::vector<dealii::Tensor<2, dim>> &);                      \
-  template void multiply(const NodeMatrix<dim> &,                                                \
-                         const LatticeWindow<dim> &,                                             \
-                         const ActiveNodes<dim> &,                                               \
-                         const unsigned int,                                                     \
-                         const std::vector<double> &,                                            \
+#define KEDGE_INSTANTIATE(dim)                                                   \
+  template void assemble_mass(const StepPoints<dim> &,                           \
+                              const LatticeWindow<dim> &,                        \
+                              const ActiveNodes<dim> &,                          \
+                              NodeMatrix<dim> &);                                \
+  template void blend_mass(const double, NodeMatrix<dim> &, const unsigned int); \
+  template void add_to_nodes(const StepPoints<dim> &,                            \
+                             const LatticeWindow<dim> &,                         \
+                             const ActiveNodes<dim> &,                           \
+                             const std::vector<double> &,                        \
+                             const std::vector<dealii::Tensor<1, dim>> &,        \
+                             std::vector<double> &);                             \
+  template void add_scalars_to_nodes(const StepPoints<dim> &,                    \
+                                     const LatticeWindow<dim> &,                 \
+                                     const ActiveNodes<dim> &,                   \
+                                     const std::vector<double> &,                \
+                                     const unsigned int,                         \
+                                     std::vector<double> &);                     \
+  template void interpolate_to_points(const StepPoints<dim> &,                   \
+                                      const LatticeWindow<dim> &,                \
+                                      const ActiveNodes<dim> &,                  \
+                                      const std::vector<double> &,               \
+                                      std::vector<dealii::Tensor<1, dim>> &);    \
+  template void gradients_at_points(const StepPoints<dim> &,                     \
+                                    const LatticeWindow<dim> &,                  \
+                                    const ActiveNodes<dim> &,                    \
+                                    const std::vector<double> &,                 \
+                                    std::vector<dealii::Tensor<2, dim>> &);      \
+  template void multiply(const NodeMatrix<dim> &,                                \
+                         const LatticeWindow<dim> &,                             \
+                         const ActiveNodes<dim> &,                               \
+                         const unsigned int,                                     \
+                         const std::vector<double> &,                            \
                          std::vector<double> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

@@ -116,8 +116,8 @@ namespace kedge
       locations[i] = x;
       body[i]      = static_cast<unsigned int>(state.body);
       cell[i]      = grid.window().cell_number(grid.lattice().cell_of(x));
-      stencils[i]  = make_stencil(
-        basis_of_body[body[i]], grid.lattice(), grid.window(), x, state.half_lengths);
+      stencils[i] =
+        make_stencil(basis_of_body[body[i]], grid.lattice(), grid.window(), x, state.half_lengths);
     });
     find_order(grid, cell, body, stencils, basis_of_body.size());
 
@@ -140,14 +140,14 @@ namespace kedge
         id[slot]                     = ids[i];
         if (state.loaded != 0.)
           loaded.push_back(slot);
-        stencil[slot]                = stencils[i];
-        mass[slot]                   = state.mass;
-        volume[slot]                 = state.reference_volume;
-        location[slot]               = locations[i];
-        determinant[slot]            = dealii::determinant(state.deformation_gradient);
-        velocity[slot]               = state.velocity;
-        acceleration[slot]           = state.acceleration;
-        stress_state[slot]           = make_stress_state(state);
+        stencil[slot]      = stencils[i];
+        mass[slot]         = state.mass;
+        volume[slot]       = state.reference_volume;
+        location[slot]     = locations[i];
+        determinant[slot]  = dealii::determinant(state.deformation_gradient);
+        velocity[slot]     = state.velocity;
+        acceleration[slot] = state.acceleration;
+        stress_state[slot] = make_stress_state(state);
       }
   }
 
@@ -158,7 +158,7 @@ namespace kedge
   StepPoints<dim>::reached_nodes(const LatticeWindow<dim> &window) const
   {
     std::vector<unsigned char> reached(window.n_nodes_total(), 0);
-    const auto                 strides = window.node_strides();
+    const auto                 strides   = window.node_strides();
     unsigned int               last_node = static_cast<unsigned int>(-1), last_pattern = 0;
     for (const Stencil<dim> &s : stencil)
       {
@@ -169,13 +169,14 @@ namespace kedge
         for (int k = 0; k < (dim == 3 ? stencil_width(s.pattern, 2) : 1); ++k)
           for (int j = 0; j < stencil_width(s.pattern, 1); ++j)
             for (int i = 0; i < stencil_width(s.pattern, 0); ++i)
-              reached[s.first_node + i + j * strides[1] + (dim == 3 ? k * strides[dim - 1] : 0)] = 1;
+              reached[s.first_node + i + j * strides[1] + (dim == 3 ? k * strides[dim - 1] : 0)] =
+                1;
       }
     return reached;
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                  \
-  template struct StepPoints<dim>;                                              \
+#define KEDGE_INSTANTIATE(dim)     \
+  template struct StepPoints<dim>; \
   template StressState<dim> make_stress_state<dim>(const PointState<dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

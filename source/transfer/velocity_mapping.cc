@@ -10,8 +10,8 @@ namespace kedge
      * solution is iterated back to the unchanged matrix: momentum and energy
      * stay exact, the undetermined part stays small.
      */
-    constexpr double       diagonal_shift       = 1e-12;
-    constexpr unsigned int n_shift_corrections  = 4;
+    constexpr double       diagonal_shift      = 1e-12;
+    constexpr unsigned int n_shift_corrections = 4;
 
     std::vector<double>
     multiply(const SparseSystem &system, const std::vector<double> &x)
@@ -96,13 +96,7 @@ namespace kedge
       return status;
 
     component.is_shifted = true;
-    component.shifted    = component.equations.system();
-    for (unsigned int i = 0; i < component.shifted.n_rows(); ++i)
-      for (std::int64_t k = component.shifted.row_start[i]; k < component.shifted.row_start[i + 1];
-           ++k)
-        if (component.shifted.column[k] == component.shifted.first_row + i)
-          component.shifted.value[k] *= 1. + diagonal_shift;
-    return component.solver->factorise(component.shifted);
+    return component.solver->factorise(component.equations.system(), diagonal_shift);
   }
 
 

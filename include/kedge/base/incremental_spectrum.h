@@ -45,10 +45,10 @@ namespace kedge
 
               const double difference = (base[q] - base[p]) + (P[q][q] - P[p][p]);
               const double theta      = difference / (2. * off);
-              const double t          = (theta >= 0. ? 1. : -1.) /
-                               (std::abs(theta) + std::sqrt(theta * theta + 1.));
-              const double c   = 1. / std::sqrt(t * t + 1.);
-              const double s   = t * c;
+              const double t =
+                (theta >= 0. ? 1. : -1.) / (std::abs(theta) + std::sqrt(theta * theta + 1.));
+              const double c = 1. / std::sqrt(t * t + 1.);
+              const double s = t * c;
               P[p][p] -= t * off;
               P[q][q] += t * off;
               P[p][q] = P[q][p] = 0.;

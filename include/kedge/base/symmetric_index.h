@@ -5,7 +5,7 @@ namespace kedge
 {
   /** Number of independent components of a symmetric second-order tensor. */
   template <int dim>
-  constexpr int n_symmetric = dim * (dim + 1) / 2;
+  constexpr int n_symmetric = dim *(dim + 1) / 2;
 
   /**
    * Position of component (i, j) of a symmetric tensor in a plain array, in

@@ -16,8 +16,8 @@ namespace kedge
   template <int dim>
   struct Stencil
   {
-    unsigned int first_node;  ///< number in the window of the lowest node
-    unsigned int pattern;     ///< bit d is set if direction d has three nodes
+    unsigned int first_node; ///< number in the window of the lowest node
+    unsigned int pattern;    ///< bit d is set if direction d has three nodes
     double       value[dim][3];
     double       slope[dim][3]; ///< [1/m]
   };

@@ -73,9 +73,9 @@ namespace kedge
      * row to @p receive(owned local number, row).
      */
     void
-    send_to_owners(const std::vector<std::int64_t>                                 &values,
-                   const unsigned int                                               width,
-                   const std::function<void(unsigned int, const std::int64_t *)>   &receive) const;
+    send_to_owners(const std::vector<std::int64_t>                               &values,
+                   const unsigned int                                             width,
+                   const std::function<void(unsigned int, const std::int64_t *)> &receive) const;
 
     MPI_Comm
     communicator() const
@@ -92,16 +92,16 @@ namespace kedge
     };
 
     void
-    find_neighbours(const BackgroundGrid<dim>                 &grid,
+    find_neighbours(const BackgroundGrid<dim>                               &grid,
                     const std::map<unsigned int, std::vector<unsigned int>> &ghost_nodes,
-                    std::vector<unsigned int>                 &owned_nodes);
+                    std::vector<unsigned int>                               &owned_nodes);
 
     template <typename T>
     void
-    exchange(const std::vector<T>                                        &values,
-             const unsigned int                                           width,
-             const bool                                                   to_owners,
-             const std::function<void(unsigned int, const T *)>          &receive) const;
+    exchange(const std::vector<T>                               &values,
+             const unsigned int                                  width,
+             const bool                                          to_owners,
+             const std::function<void(unsigned int, const T *)> &receive) const;
 
     MPI_Comm                  communicator_ = MPI_COMM_NULL;
     unsigned int              generation    = 0;

@@ -114,15 +114,15 @@ namespace kedge
     void
     tabulate_node_owners();
 
-    const Lattice<dim>                    lattice_;
-    const MPI_Comm                        communicator_;
-    const dealii::MappingCartesian<dim>   mapping_;
-    LatticeWindow<dim>                    window_;
-    unsigned int                          n_refinements = 0;
-    unsigned int                          generation_   = 0;
-    dealii::FESystem<dim>                 element;
-    std::vector<CellIterator>             cell_iterators;
-    std::vector<unsigned int>             node_owners;
+    const Lattice<dim>                                                 lattice_;
+    const MPI_Comm                                                     communicator_;
+    const dealii::MappingCartesian<dim>                                mapping_;
+    LatticeWindow<dim>                                                 window_;
+    unsigned int                                                       n_refinements = 0;
+    unsigned int                                                       generation_   = 0;
+    dealii::FESystem<dim>                                              element;
+    std::vector<CellIterator>                                          cell_iterators;
+    std::vector<unsigned int>                                          node_owners;
     std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> triangulation_;
     std::unique_ptr<dealii::DoFHandler<dim>>                           dof_handler_;
   };

@@ -68,13 +68,13 @@ namespace kedge
     };
 
     bool
-    applies(const Condition           &condition,
-            const Lattice<dim>        &lattice,
-            const LatticeIndex<dim>   &node) const;
+    applies(const Condition         &condition,
+            const Lattice<dim>      &lattice,
+            const LatticeIndex<dim> &node) const;
 
-    std::vector<Condition>   conditions;
-    std::vector<short>       condition_of; ///< of each local node and component, or -1
-    bool                     any_moving_ = false;
+    std::vector<Condition> conditions;
+    std::vector<short>     condition_of; ///< of each local node and component, or -1
+    bool                   any_moving_ = false;
   };
 } // namespace kedge
 

@@ -24,9 +24,9 @@ namespace kedge
     double                   points_interval    = 0; ///< simulated time between outputs [s]; 0: off
     unsigned int             points_every_steps = 0; ///< 0: off
     std::vector<std::string> fields;                 ///< names of point fields
-    bool                     vtu  = true;
-    bool                     hdf5 = false;
-    bool                     grid = false;
+    bool                     vtu                    = true;
+    bool                     hdf5                   = false;
+    bool                     grid                   = false;
     unsigned int             checkpoint_every_steps = 0;   ///< 0: off
     double                   checkpoint_interval    = 600; ///< wall seconds; 0: off
     double                   progress_interval      = 1;   ///< wall seconds between lines
@@ -45,7 +45,8 @@ namespace kedge
     point_error ///< sum_p |v_p - exact(X_p)| V0_p / sum V0_p of a point field, at the end
   };
 
-  /** A known answer of a scene. Passes if |value/scale - reference| <= tolerance (absolute) or <= tolerance*|reference| (relative). */
+  /** A known answer of a scene. Passes if |value/scale - reference| <= tolerance (absolute) or <=
+   * tolerance*|reference| (relative). */
   struct CheckParameters
   {
     std::string    name;

@@ -25,7 +25,11 @@ namespace kedge
   inline double
   p_wave_modulus(const Material &material)
   {
-    return std::visit([](const auto &m) { return m.p_wave_modulus(); }, material);
+    return std::visit(
+      [](const auto &m) {
+        return m.p_wave_modulus();
+      },
+      material);
   }
 } // namespace kedge
 

@@ -14,10 +14,10 @@ namespace kedge
   struct MaterialParameters
   {
     std::string  name;
-    MaterialKind kind           = MaterialKind::hencky;
-    double       density        = 0; ///< [kg/m^3]
-    double       young_modulus  = 0; ///< [Pa]
-    double       poisson_ratio  = 0; ///< [-]
+    MaterialKind kind          = MaterialKind::hencky;
+    double       density       = 0; ///< [kg/m^3]
+    double       young_modulus = 0; ///< [Pa]
+    double       poisson_ratio = 0; ///< [-]
   };
 } // namespace kedge
 

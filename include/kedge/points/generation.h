@@ -8,7 +8,8 @@
 
 namespace kedge
 {
-  /** A newly made material point and the faces of its sub-cell that no neighbour of its body covers. */
+  /** A newly made material point and the faces of its sub-cell that no neighbour of its body
+   * covers. */
   template <int dim>
   struct GeneratedPoint
   {

@@ -41,8 +41,7 @@ namespace kedge
    */
   template <int dim>
   std::shared_ptr<Geometry<dim>>
-  parse_geometry(const std::string                   &description,
-                 const std::map<std::string, double> &constants);
+  parse_geometry(const std::string &description, const std::map<std::string, double> &constants);
 } // namespace kedge
 
 #endif

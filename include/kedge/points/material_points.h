@@ -29,6 +29,13 @@ namespace kedge
     void
     distribute(const BackgroundGrid<dim> &grid, std::vector<PointRecord<dim>> records);
 
+    /** Lets go of all points; to be called before the grid's triangulation is replaced. */
+    void
+    clear()
+    {
+      handler.reset();
+    }
+
     /** The local points in their order. */
     std::vector<PointRecord<dim>>
     records() const;

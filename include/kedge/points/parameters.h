@@ -20,13 +20,13 @@ namespace kedge
   template <int dim>
   struct BodyParameters
   {
-    std::string                     name;
-    std::shared_ptr<Geometry<dim>>  geometry;
-    unsigned int                    material = 0; ///< index into the scene's materials
-    std::array<unsigned int, dim>   points_per_cell;
-    BasisKind                       basis = BasisKind::gimp;
-    std::array<std::string, dim>    initial_velocity; ///< expressions of x, y, z [m/s]
-    bool                            body_force = true;
+    std::string                    name;
+    std::shared_ptr<Geometry<dim>> geometry;
+    unsigned int                   material = 0; ///< index into the scene's materials
+    std::array<unsigned int, dim>  points_per_cell;
+    BasisKind                      basis = BasisKind::gimp;
+    std::array<std::string, dim>   initial_velocity; ///< expressions of x, y, z [m/s]
+    bool                           body_force = true;
   };
 } // namespace kedge
 

@@ -24,26 +24,26 @@ namespace kedge
   template <int dim>
   struct PointState
   {
-    double                          body;             ///< index of its body [-]
-    double                          loaded;           ///< 1 if point loads or tractions act on it
-    double                          mass;             ///< [kg; kg/m in 2D]
-    double                          reference_volume; ///< V0 [m^3; m^2 in 2D]
-    dealii::Tensor<1, dim>          reference_position; ///< X [m]
-    dealii::Tensor<1, dim>          displacement;       ///< x - X, accumulated [m]
-    dealii::Tensor<1, dim>          velocity;           ///< [m/s]
-    dealii::Tensor<1, dim>          acceleration;       ///< [m/s^2], used by schemes that carry it
-    dealii::Tensor<1, dim>          reference_half_lengths; ///< GIMP domain at the start [m]
-    dealii::Tensor<1, dim>          half_lengths;           ///< GIMP domain now [m]
-    dealii::Tensor<2, dim>          deformation_gradient;   ///< F = dx/dX
+    double                 body;                   ///< index of its body [-]
+    double                 loaded;                 ///< 1 if point loads or tractions act on it
+    double                 mass;                   ///< [kg; kg/m in 2D]
+    double                 reference_volume;       ///< V0 [m^3; m^2 in 2D]
+    dealii::Tensor<1, dim> reference_position;     ///< X [m]
+    dealii::Tensor<1, dim> displacement;           ///< x - X, accumulated [m]
+    dealii::Tensor<1, dim> velocity;               ///< [m/s]
+    dealii::Tensor<1, dim> acceleration;           ///< [m/s^2], used by schemes that carry it
+    dealii::Tensor<1, dim> reference_half_lengths; ///< GIMP domain at the start [m]
+    dealii::Tensor<1, dim> half_lengths;           ///< GIMP domain now [m]
+    dealii::Tensor<2, dim> deformation_gradient;   ///< F = dx/dX
     /**
      * B with B B^T = b^e, the elastic left Cauchy-Green tensor: its columns
      * are the principal directions scaled by the principal elastic stretches.
      */
     dealii::Tensor<2, dim>          elastic_frame;
-    double                          out_of_plane_elastic_stretch; ///< plane strain; 1 in 3D
+    double                          out_of_plane_elastic_stretch;  ///< plane strain; 1 in 3D
     dealii::SymmetricTensor<2, dim> kirchhoff_stress;              ///< tau [Pa]
     double                          out_of_plane_kirchhoff_stress; ///< plane strain; 0 in 3D [Pa]
-    double                          strain_energy;  ///< elastic free energy per V0 [J/m^3]
+    double                          strain_energy;       ///< elastic free energy per V0 [J/m^3]
     double                          hardening_energy;    ///< per V0 [J/m^3]
     double                          plastic_dissipation; ///< accumulated, per V0 [J/m^3]
     double                          equivalent_plastic_strain; ///< alpha [-]
@@ -52,7 +52,8 @@ namespace kedge
   template <int dim>
   constexpr unsigned int n_state_values = sizeof(PointState<dim>) / sizeof(double);
 
-  static_assert(std::is_standard_layout_v<PointState<2>> && std::is_standard_layout_v<PointState<3>>);
+  static_assert(std::is_standard_layout_v<PointState<2>> &&
+                std::is_standard_layout_v<PointState<3>>);
   static_assert(sizeof(PointState<3>) % sizeof(double) == 0);
 
   /** A material point as it leaves the cloud: for output, checkpoints, rebuilding. */

@@ -21,7 +21,7 @@ namespace kedge
   template <int dim>
   struct Scene
   {
-    std::string                               name;  ///< the file's name without folder and ending
+    std::string                               name; ///< the file's name without folder and ending
     std::string                               title;
     std::map<std::string, double>             constants; ///< of all expressions
     GridParameters<dim>                       grid;

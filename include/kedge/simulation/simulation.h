@@ -80,15 +80,15 @@ namespace kedge
     std::vector<Probe>
     find_probes() const;
 
-    const Scene<dim>   scene;
-    const RunOptions   options;
-    const MPI_Comm     communicator;
-    const double       wall_start;
-    RunFolder          folder;
-    StepEngine<dim>    engine;
-    Clock              clock;
-    Totals             totals;
-    HistoryRow         row;
+    const Scene<dim> scene;
+    const RunOptions options;
+    const MPI_Comm   communicator;
+    const double     wall_start;
+    RunFolder        folder;
+    StepEngine<dim>  engine;
+    Clock            clock;
+    Totals           totals;
+    HistoryRow       row;
 
     std::unique_ptr<HistoryWriter>     history;
     std::unique_ptr<ProbeWriter<dim>>  probes;
@@ -100,7 +100,7 @@ namespace kedge
     double                             last_checkpoint_wall = 0.;
     std::uint64_t                      last_checkpoint_step = 0;
     std::optional<std::uint64_t>       last_points_step; ///< step of the last output of points
-    double                             output_seconds       = 0.;
+    double                             output_seconds = 0.;
   };
 
   /**

@@ -157,24 +157,24 @@ namespace kedge
     void
     update_velocities(const unsigned int slot, PointState<dim> &state) const;
 
-    const Scene<dim>               scene;
-    const MPI_Comm                 communicator;
-    const Scheme                   scheme;
-    const int                      stencil_radius;
-    std::vector<BasisKind>         basis_of_body;
-    std::vector<Material>          material_of_body;
-    std::vector<std::string>       body_names;
+    const Scene<dim>         scene;
+    const MPI_Comm           communicator;
+    const Scheme             scheme;
+    const int                stencil_radius;
+    std::vector<BasisKind>   basis_of_body;
+    std::vector<Material>    material_of_body;
+    std::vector<std::string> body_names;
 
-    BackgroundGrid<dim>            background;
-    MaterialPoints<dim>            cloud;
-    StepPoints<dim>                step_points;
-    ActiveNodes<dim>               nodes;
-    NodeConditions<dim>            conditions;
-    ExternalLoads<dim>             loads;
-    NodeMatrix<dim>                mass;
-    VelocityMapping<dim>           mapping;
-    SolidProblem<dim>              problem;
-    NodalState                     nodal;
+    BackgroundGrid<dim>  background;
+    MaterialPoints<dim>  cloud;
+    StepPoints<dim>      step_points;
+    ActiveNodes<dim>     nodes;
+    NodeConditions<dim>  conditions;
+    ExternalLoads<dim>   loads;
+    NodeMatrix<dim>      mass;
+    VelocityMapping<dim> mapping;
+    SolidProblem<dim>    problem;
+    NodalState           nodal;
 
     std::vector<GeneratedPoint<dim>>    generated;
     LatticeWindow<dim>                  covered;

@@ -22,11 +22,11 @@ namespace kedge
      * @param body_force       expressions of t [m/s^2]
      * @param has_body_force   one per body
      */
-    ExternalLoads(const std::array<std::string, dim>        &body_force,
-                  const std::vector<bool>                   &has_body_force,
+    ExternalLoads(const std::array<std::string, dim>          &body_force,
+                  const std::vector<bool>                     &has_body_force,
                   const std::vector<PointLoadParameters<dim>> &point_loads,
                   const std::vector<TractionParameters<dim>>  &tractions,
-                  const std::map<std::string, double>       &constants);
+                  const std::map<std::string, double>         &constants);
 
     /**
      * Finds the points that carry loads among those just generated (all of

@@ -15,9 +15,9 @@ namespace kedge
   {
     std::string                  name;
     std::string                  body;
-    dealii::Point<dim>           place;    ///< in the initial configuration [m]
+    dealii::Point<dim>           place; ///< in the initial configuration [m]
     unsigned int                 n_points = 1;
-    std::array<std::string, dim> force;    ///< expressions of t [N; N/m in 2D]
+    std::array<std::string, dim> force; ///< expressions of t [N; N/m in 2D]
   };
 
   /**

@@ -11,8 +11,8 @@ namespace kedge
   template <int dim>
   struct PointUpdate
   {
-    double relative_gradient[dim][dim]; ///< A = d(Delta u)/dx_n
-    double elastic_frame[dim][dim];     ///< B_{n+1}
+    double relative_gradient[dim][dim];        ///< A = d(Delta u)/dx_n
+    double elastic_frame[dim][dim];            ///< B_{n+1}
     double kirchhoff_stress[n_symmetric<dim>]; ///< tau_{n+1} [Pa]
     double out_of_plane_stress;                ///< [Pa]
     double strain_energy;                      ///< per V0 [J/m^3]

@@ -34,9 +34,9 @@ namespace kedge
   class SolidProblem : public NewtonProblem
   {
   public:
-    SolidProblem(const InternalForce<dim>     &internal_force,
-                 const Scheme                 &scheme,
-                 const LinearSolverParameters &parameters,
+    SolidProblem(const InternalForce<dim>       &internal_force,
+                 const Scheme                   &scheme,
+                 const LinearSolverParameters   &parameters,
                  const std::vector<std::string> &body_names);
 
     /** Announces points, nodes and conditions of a step. */
@@ -60,7 +60,7 @@ namespace kedge
     evaluate() override;
 
     LinearStatus
-    solve_correction(double &norm) override;
+    solve_correction(double &norm, const bool keep_tangent) override;
 
     void
     apply_correction(const double factor) override;
@@ -71,6 +71,13 @@ namespace kedge
     /** Work of the supports that move in this step, after convergence [J] (collective). */
     double
     reaction_work() const;
+
+    /** Says where the tangent was singular in this step; empty if nowhere. */
+    const std::string &
+    warning() const
+    {
+      return warning_;
+    }
 
     std::uint64_t
     n_equations() const
@@ -93,6 +100,8 @@ namespace kedge
   private:
     void
     set_prescribed_displacements();
+    void
+    assemble_tangent();
     void
     add_inertia_to_stiffness();
     std::string
@@ -121,6 +130,7 @@ namespace kedge
     std::vector<double>        internal, inertia, acceleration, residual, correction;
     std::vector<double>        diagonal; ///< of the last tangent, at the equations
     SolidTimings               timings_;
+    std::string                warning_;
   };
 } // namespace kedge
 

@@ -13,9 +13,9 @@ namespace kedge
   struct LinearStatus
   {
     bool         success    = true;
-    unsigned int iterations = 0;   ///< of Krylov methods; 0 for direct ones
-    std::int64_t equation   = -1;  ///< global equation that looks singular, if known
-    std::string  cause;            ///< empty on success
+    unsigned int iterations = 0;  ///< of Krylov methods; 0 for direct ones
+    std::int64_t equation   = -1; ///< global equation that looks singular, if known
+    std::string  cause;           ///< empty on success
 
     static LinearStatus
     failure(const std::string &cause, const std::int64_t equation = -1)
@@ -56,9 +56,16 @@ namespace kedge
     void
     pattern_changed();
 
-    /** Prepares the solution with the values of @p system (collective). */
+    /**
+     * Prepares the solution with the values of @p system (collective).
+     *
+     * @param shift is added to the diagonal of the scaled matrix (whose
+     *              diagonal is 1 otherwise) by direct methods: it makes a
+     *              singular matrix soluble and leaves what it cannot determine
+     *              small
+     */
     LinearStatus
-    factorise(const SparseSystem &system);
+    factorise(const SparseSystem &system, const double shift = 0.);
 
     /** Solves A x = b for this rank's rows (collective). */
     LinearStatus
@@ -73,7 +80,7 @@ namespace kedge
   private:
     LinearSolverParameters   parameters;
     MatrixTraits             traits;
-    LinearSolverKind         chosen = LinearSolverKind::automatic;
+    LinearSolverKind         chosen      = LinearSolverKind::automatic;
     bool                     new_pattern = true;
     std::unique_ptr<Backend> backend;
 

@@ -15,8 +15,8 @@ namespace kedge
     bool                converged         = false;
     unsigned int        iterations        = 0; ///< corrections solved for
     unsigned int        linear_iterations = 0;
-    std::string         cause;                 ///< of a failure: what, where
-    std::vector<double> residual_norms;        ///< before the first and after each correction
+    std::string         cause;          ///< of a failure: what, where
+    std::vector<double> residual_norms; ///< before the first and after each correction
     std::vector<double> correction_norms;
   };
 
@@ -26,8 +26,8 @@ namespace kedge
   public:
     struct Evaluation
     {
-      bool        ok            = true;
-      double      residual_norm = 0.; ///< 2-norm over the free components
+      bool   ok            = true;
+      double residual_norm = 0.; ///< 2-norm over the free components
       /** Size of the terms that cancel in the residual: its round-off is a fraction of this. */
       double      scale = 0.;
       std::string cause; ///< if !ok: which point, what happened
@@ -39,9 +39,13 @@ namespace kedge
     virtual Evaluation
     evaluate() = 0;
 
-    /** Solves for the correction at the present u and gives its 2-norm. */
+    /**
+     * Solves for the correction at the present u and gives its 2-norm.
+     *
+     * @param keep_tangent use the tangent of the last call (and its factors)
+     */
     virtual LinearStatus
-    solve_correction(double &norm) = 0;
+    solve_correction(double &norm, const bool keep_tangent) = 0;
 
     /** u += factor * correction. */
     virtual void
@@ -57,7 +61,10 @@ namespace kedge
    *   |r_k| |du_k| / (|r_0| |du_1|) < tolerance,
    * made safe against small first steps: a residual at the round-off of its
    * own terms is converged too. A correction that leads to an inadmissible
-   * state (det F <= 0, not finite) is halved.
+   * state (det F <= 0, not finite) is halved. When the criterion holds, one
+   * more correction with the tangent at hand polishes the solution: it costs
+   * no factorisation and takes the residual near round-off, which is what the
+   * conservation of energy and momenta lives on.
    */
   NewtonReport
   solve_newton(NewtonProblem &problem, const NewtonParameters &parameters);

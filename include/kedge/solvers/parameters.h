@@ -13,8 +13,8 @@ namespace kedge
   enum class LinearSolverKind
   {
     automatic,
-    banded,  ///< LAPACK's band LU
-    direct,  ///< UMFPACK
+    banded, ///< LAPACK's band LU
+    direct, ///< UMFPACK
     krylov_ilu,
     krylov_amg
   };

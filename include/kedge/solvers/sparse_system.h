@@ -15,10 +15,10 @@ namespace kedge
    */
   struct SparseSystem
   {
-    MPI_Comm                  communicator  = MPI_COMM_SELF;
-    std::int64_t              n_global      = 0;
-    std::int64_t              first_row     = 0;
-    std::vector<std::int64_t> row_start     = {0}; ///< n_rows + 1 entries
+    MPI_Comm                  communicator = MPI_COMM_SELF;
+    std::int64_t              n_global     = 0;
+    std::int64_t              first_row    = 0;
+    std::vector<std::int64_t> row_start    = {0}; ///< n_rows + 1 entries
     std::vector<int>          column;
     std::vector<double>       value;
 

@@ -29,9 +29,9 @@ namespace kedge
   template <int dim>
   struct ForceStress
   {
-    double stress[dim][dim];                       ///< P
-    double tangent[dim][dim][dim][dim];            ///< dP_pR / dA_mS as [p][R][m][S]
-    double work_increment;                         ///< Delta Psi + Delta D at u, per V0
+    double stress[dim][dim];            ///< P
+    double tangent[dim][dim][dim][dim]; ///< dP_pR / dA_mS as [p][R][m][S]
+    double work_increment;              ///< Delta Psi + Delta D at u, per V0
     bool   valid;
   };
 
@@ -115,8 +115,7 @@ namespace kedge
                     for (int Q = 0; Q < dim; ++Q)
                       sum += full[m][Q] * dE[symmetric_index<dim>(Q, T)];
                     result.tangent[p][R][m][T] =
-                      2. * sum +
-                      (p == m ? mid_weight * S[symmetric_index<dim>(R, T)] : 0.);
+                      2. * sum + (p == m ? mid_weight * S[symmetric_index<dim>(R, T)] : 0.);
                   }
             }
     }
@@ -138,7 +137,7 @@ namespace kedge
                     double (&S)[n_symmetric<dim>],
                     double (&H)[n_symmetric<dim>][n_symmetric<dim>])
     {
-      constexpr int    ns = n_symmetric<dim>;
+      constexpr int    ns              = n_symmetric<dim>;
       constexpr double smallest_square = 1e-280, smallest_square_for_slope = 1e-16;
 
       double N[ns];
@@ -148,9 +147,9 @@ namespace kedge
       double mean[ns];
       for (int s = 0; s < ns; ++s)
         mean[s] = 0.5 * (state.kirchhoff_stress[s] + S[s]);
-      const double q = square > smallest_square ?
-                         (2. * work_increment - double_contract<dim>(mean, E)) / square :
-                         0.;
+      const double q = square > smallest_square
+                         ? (2. * work_increment - double_contract<dim>(mean, E)) / square
+                         : 0.;
 
       if constexpr (with_tangent)
         {
@@ -171,11 +170,10 @@ namespace kedge
               for (int t = 0; t < ns; ++t)
                 {
                   const int k = symmetric_row<dim>[t], l = symmetric_column<dim>[t];
-                  H[s][t] =
-                    0.5 * H[s][t] + N[s] * slope[t] +
-                    0.5 * q *
-                      (b[symmetric_index<dim>(i, k)] * b[symmetric_index<dim>(j, l)] +
-                       b[symmetric_index<dim>(i, l)] * b[symmetric_index<dim>(j, k)]);
+                  H[s][t] = 0.5 * H[s][t] + N[s] * slope[t] +
+                            0.5 * q *
+                              (b[symmetric_index<dim>(i, k)] * b[symmetric_index<dim>(j, l)] +
+                               b[symmetric_index<dim>(i, l)] * b[symmetric_index<dim>(j, k)]);
                 }
             }
         }

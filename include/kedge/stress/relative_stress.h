@@ -15,9 +15,9 @@ namespace kedge
   template <int dim>
   struct StressState
   {
-    double elastic_frame[dim][dim]; ///< B, B B^T = b^e_n, orthogonal columns
-    double squared_stretch[dim];    ///< squared length of each column of B
-    double strain[3];               ///< principal elastic Hencky strain eps_n
+    double elastic_frame[dim][dim];             ///< B, B B^T = b^e_n, orthogonal columns
+    double squared_stretch[dim];                ///< squared length of each column of B
+    double strain[3];                           ///< principal elastic Hencky strain eps_n
     double left_cauchy_green[n_symmetric<dim>]; ///< total b_n = F_n F_n^T
     double kirchhoff_stress[n_symmetric<dim>];  ///< tau_n [Pa]
   };
@@ -35,14 +35,14 @@ namespace kedge
   template <int dim>
   struct RelativeStress
   {
-    double frame[dim][dim];    ///< a_i as columns
-    double rotation[dim][dim]; ///< w_i as columns
-    double lambda[dim];        ///< squared principal trial stretches
-    double increment[3];       ///< increment of the principal Hencky strain
-    double tau[3];             ///< principal Kirchhoff stress [Pa]
+    double frame[dim][dim];          ///< a_i as columns
+    double rotation[dim][dim];       ///< w_i as columns
+    double lambda[dim];              ///< squared principal trial stretches
+    double increment[3];             ///< increment of the principal Hencky strain
+    double tau[3];                   ///< principal Kirchhoff stress [Pa]
     double stress[n_symmetric<dim>]; ///< S [Pa]
-    double work_increment;     ///< Delta Psi + Delta D per V0 [J/m^3]
-    bool   valid;              ///< false where an eigenvalue is not positive
+    double work_increment;           ///< Delta Psi + Delta D per V0 [J/m^3]
+    bool   valid;                    ///< false where an eigenvalue is not positive
   };
 
   /** E = A + A^T + A^T A in the order of symmetric_index(). */
@@ -52,7 +52,7 @@ namespace kedge
   {
     for (int s = 0; s < n_symmetric<dim>; ++s)
       {
-        const int i   = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
+        const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
         double    sum = A[i][j] + A[j][i];
         for (int k = 0; k < dim; ++k)
           sum += A[k][i] * A[k][j];
@@ -180,17 +180,15 @@ namespace kedge
         {
           // (eps_i - eps_j) / (lambda_i - lambda_j) = log1p(x) / (2 x lambda_j)
           const double li = r.lambda[i], lj = r.lambda[j], x = (li - lj) / lj;
-          const double ratio = std::abs(x) < 1e-4 ?
-                                 1. - x * (0.5 - x * (1. / 3. - 0.25 * x)) :
-                                 std::log1p(x) / x;
+          const double ratio =
+            std::abs(x) < 1e-4 ? 1. - x * (0.5 - x * (1. / 3. - 0.25 * x)) : std::log1p(x) / x;
           const double secant = material.secant_shear() * 0.5 * ratio / lj;
-          const double g =
-            (0.5 * (li + lj) * secant - 0.5 * (r.tau[i] + r.tau[j])) / (li * lj);
-          double mixed[ns];
+          const double g = (0.5 * (li + lj) * secant - 0.5 * (r.tau[i] + r.tau[j])) / (li * lj);
+          double       mixed[ns];
           for (int s = 0; s < ns; ++s)
             {
               const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
-              mixed[s]    = r.frame[k][i] * r.frame[l][j] + r.frame[l][i] * r.frame[k][j];
+              mixed[s] = r.frame[k][i] * r.frame[l][j] + r.frame[l][i] * r.frame[k][j];
             }
           for (int s = 0; s < ns; ++s)
             for (int t = 0; t < ns; ++t)

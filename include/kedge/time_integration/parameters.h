@@ -26,18 +26,18 @@ namespace kedge
 
   struct TimeParameters
   {
-    SchemeKind          scheme = SchemeKind::clc_midpoint;
-    double              start  = 0;
-    double              end    = 1;
-    StepSizeKind        step_kind = StepSizeKind::fixed;
-    double              step       = 0.1;  ///< [s], step_kind fixed
-    double              cfl_factor = 15;   ///< [-], step_kind cfl_*
+    SchemeKind          scheme              = SchemeKind::clc_midpoint;
+    double              start               = 0;
+    double              end                 = 1;
+    StepSizeKind        step_kind           = StepSizeKind::fixed;
+    double              step                = 0.1;       ///< [s], step_kind fixed
+    double              cfl_factor          = 15;        ///< [-], step_kind cfl_*
     double              minimum_step_factor = 1. / 1024; ///< floor, times the nominal step
-    std::vector<double> break_times;       ///< times that a step must end at [s]
-    double              newmark_beta  = 0.25;
-    double              newmark_gamma = 0.5;
-    double              spectral_radius = 0.818; ///< rho_infinity of generalised-alpha
-    bool                carry_acceleration = true; ///< false: the thesis's printed a_n = 0
+    std::vector<double> break_times;                     ///< times that a step must end at [s]
+    double              newmark_beta       = 0.25;
+    double              newmark_gamma      = 0.5;
+    double              spectral_radius    = 0.818; ///< rho_infinity of generalised-alpha
+    bool                carry_acceleration = true;  ///< false: the thesis's printed a_n = 0
   };
 } // namespace kedge
 

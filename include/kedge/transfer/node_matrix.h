@@ -135,7 +135,7 @@ namespace kedge
                     stencil_size<dim>(pattern)>
   pair_slots(const NodeMatrix<dim> &matrix)
   {
-    constexpr int n = stencil_size<dim>(pattern);
+    constexpr int n           = stencil_size<dim>(pattern);
     const auto    coordinates = [](int A) {
       LatticeIndex<dim> index;
       for (int d = 0; d < dim; ++d)

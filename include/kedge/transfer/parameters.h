@@ -12,8 +12,8 @@ namespace kedge
   struct TransferParameters
   {
     VelocityUpdate velocity_mapping = VelocityUpdate::flip;
-    double          lumping          = 0;     ///< epsilon of (3.161): 0 consistent, 1 lumped
-    bool            audit            = false; ///< write what each mapping loses, Tables 3.1, 3.2
+    double         lumping          = 0;     ///< epsilon of (3.161): 0 consistent, 1 lumped
+    bool           audit            = false; ///< write what each mapping loses, Tables 3.1, 3.2
   };
 } // namespace kedge
 

@@ -39,9 +39,9 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> velocity;     ///< [m/s]
     std::vector<dealii::Tensor<1, dim>> acceleration; ///< [m/s^2]
     std::vector<StressState<dim>>       stress_state;
-    std::vector<unsigned int>           slot_of; ///< slot of each point in the cloud's order
+    std::vector<unsigned int>           slot_of;     ///< slot of each point in the cloud's order
     unsigned int                        n_cells = 0; ///< cells with points
-    std::vector<unsigned int>           loaded;  ///< slots of the points that carry loads
+    std::vector<unsigned int>           loaded;      ///< slots of the points that carry loads
 
     /** Reads the cloud; @p basis_of_body says which stencil each body uses. */
     void

@@ -37,11 +37,11 @@ namespace kedge
      * sum_p m N_A q_p at the owned nodes.
      */
     LinearStatus
-    solve(const BackgroundGrid<dim>       &grid,
-          const ActiveNodes<dim>          &nodes,
-          const NodeMatrix<dim>           &mass,
-          const std::vector<double>       &momentum,
-          std::vector<double>             &nodal);
+    solve(const BackgroundGrid<dim> &grid,
+          const ActiveNodes<dim>    &nodes,
+          const NodeMatrix<dim>     &mass,
+          const std::vector<double> &momentum,
+          std::vector<double>       &nodal);
 
   private:
     /** One set of equations; components with the same free nodes share it. */
@@ -50,8 +50,7 @@ namespace kedge
       std::vector<unsigned char>    is_free;
       EquationSystem<dim>           equations;
       std::unique_ptr<LinearSolver> solver;
-      SparseSystem                  shifted; ///< with a slightly larger diagonal, if needed
-      bool                          is_shifted = false;
+      bool                          is_shifted = false; ///< see LinearSolver::factorise()
     };
 
     LinearStatus
@@ -61,8 +60,8 @@ namespace kedge
                     const std::vector<double> &right_side,
                     std::vector<double>       &solution);
 
-    std::vector<Component>                       components;
-    std::array<unsigned int, std::size_t(dim)>   component_of_direction;
+    std::vector<Component>                     components;
+    std::array<unsigned int, std::size_t(dim)> component_of_direction;
   };
 } // namespace kedge
 
