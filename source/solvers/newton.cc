@@ -1,6 +1,8 @@
 #include <kedge/solvers/newton.h>
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace kedge
 {
@@ -42,6 +44,20 @@ namespace kedge
     iteration_text(const unsigned int iteration)
     {
       return " (Newton iteration " + std::to_string(iteration) + ")";
+    }
+
+    /** The last residuals, which tell stagnation from divergence. */
+    std::string
+    residual_trail(const NewtonReport &report)
+    {
+      std::ostringstream text;
+      text << std::scientific << std::setprecision(1) << ", residual " << report.residual_norms[0]
+           << " N at first, at last";
+      const auto       &norms = report.residual_norms;
+      const std::size_t begin = norms.size() > 4 ? norms.size() - 4 : 1;
+      for (std::size_t k = begin; k < norms.size(); ++k)
+        text << " " << norms[k];
+      return text.str();
     }
 
     /** Applies the correction, halved until the state is admissible. */
@@ -120,8 +136,8 @@ namespace kedge
             return report;
           }
       }
-    report.cause =
-      "no convergence in " + std::to_string(parameters.max_iterations) + " Newton iterations";
+    report.cause = "no convergence in " + std::to_string(parameters.max_iterations) +
+                   " Newton iterations" + residual_trail(report);
     return report;
   }
 } // namespace kedge
