@@ -142,6 +142,13 @@ namespace kedge
               std::upper_bound(first_of_next.begin(), first_of_next.end(), dof) -
               first_of_next.begin());
           }
+    // what lies far from this rank's cells, other ranks know
+    MPI_Allreduce(MPI_IN_PLACE,
+                  node_owners.data(),
+                  static_cast<int>(node_owners.size()),
+                  MPI_UNSIGNED,
+                  MPI_MAX,
+                  communicator_);
   }
 
 

@@ -340,6 +340,11 @@ namespace kedge
                   "0",
                   allow.number(fraction),
                   "Mass matrix from 0, consistent, to 1, lumped [-]."},
+                 {"Smallest filling",
+                  "0.1",
+                  allow.number(fraction),
+                  "A node with less material than this is tied to the nearest well-filled cell; "
+                  "0: no ties [cells]."},
                  {"Audit",
                   "false",
                   allow.truth(),

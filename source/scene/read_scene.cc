@@ -329,8 +329,9 @@ namespace kedge
       TransferParameters  transfer;
       transfer.velocity_mapping =
         section.text("Velocity") == "pic" ? VelocityUpdate::pic : VelocityUpdate::flip;
-      transfer.lumping = section.number("Lumping");
-      transfer.audit   = section.truth("Audit");
+      transfer.lumping          = section.number("Lumping");
+      transfer.smallest_filling = section.number("Smallest filling");
+      transfer.audit            = section.truth("Audit");
       return transfer;
     }
 

@@ -4,9 +4,6 @@ namespace kedge
 {
   namespace
   {
-    /** Nodes lighter than this part of the heaviest start from their mean velocity. */
-    constexpr double light_node = 1e-2;
-
     template <int dim>
     int
     radius_of(const Scene<dim> &scene)
@@ -87,14 +84,19 @@ namespace kedge
       return;
     const double begin = MPI_Wtime();
     step_points.reinit(background, cloud, basis_of_body);
-    const bool changed = nodes.reinit(background, step_points.reached_nodes(background.window()));
-    if (changed)
+    auto reached = step_points.reached_nodes(background.window());
+    ties.find(background, step_points, scene.transfer.smallest_filling, reached);
+    const bool new_nodes = nodes.reinit(background, reached);
+    const bool changed   = new_nodes || ties.changed();
+    if (new_nodes)
       {
         conditions.reinit(background, nodes);
         if (scheme.dynamic)
           mass.reinit(nodes.n_local(), 1, stencil_radius);
       }
-    problem.reinit(background, nodes, conditions, step_points, mass, stencil_radius, changed);
+    if (changed)
+      ties.localise(nodes, conditions);
+    problem.reinit(background, nodes, conditions, ties, step_points, mass, stencil_radius, changed);
     const double middle = MPI_Wtime();
     seconds["activation"] += middle - begin;
 
@@ -102,16 +104,7 @@ namespace kedge
       {
         assemble_mass(step_points, background.window(), nodes, mass);
         blend_mass(scene.transfer.lumping, mass, nodes.n_local());
-        mapping.reinit(background, nodes, conditions, mass, changed);
-        nodal_mass.assign(nodes.n_local(), 0.);
-        add_scalars_to_nodes(step_points,
-                             background.window(),
-                             nodes,
-                             step_points.mass,
-                             1,
-                             nodal_mass);
-        nodes.add_to_owners(nodal_mass, 1);
-        nodes.update_ghosts(nodal_mass, 1);
+        mapping.reinit(background, nodes, conditions, ties, mass, changed);
       }
     seconds["transfer"] += MPI_Wtime() - middle;
     activated = true;
@@ -179,8 +172,9 @@ namespace kedge
                              std::vector<double>                       &at_nodes) {
       std::vector<double> momentum(size, 0.);
       add_to_nodes(step_points, window, nodes, step_points.mass, at_points, momentum);
+      ties.restrict_sums(momentum);
       nodes.add_to_owners(momentum, dim);
-      return mapping.solve(background, nodes, mass, momentum, at_nodes);
+      return mapping.solve(background, nodes, ties, mass, momentum, at_nodes);
     };
     LinearStatus status = project(step_points.velocity, nodal.velocity_n);
     if (status.success && scheme.carries_acceleration)
@@ -200,6 +194,7 @@ namespace kedge
     loads.force(step_points, t, point_forces);
     const std::vector<double> ones(step_points.size(), 1.);
     add_to_nodes(step_points, background.window(), nodes, ones, point_forces, nodal.external_force);
+    ties.restrict_sums(nodal.external_force);
     nodes.add_to_owners(nodal.external_force, dim);
   }
 
@@ -212,27 +207,8 @@ namespace kedge
     nodal.displacement.assign(std::size_t(nodes.n_local()) * dim, 0.);
     if (!scheme.dynamic)
       return;
-    std::vector<double> momentum(nodal.displacement.size(), 0.);
-    add_to_nodes(step_points,
-                 background.window(),
-                 nodes,
-                 step_points.mass,
-                 step_points.velocity,
-                 momentum);
-    nodes.add_to_owners(momentum, dim);
-    nodes.update_ghosts(momentum, dim);
-    double heaviest = 0.;
-    for (const double m : nodal_mass)
-      heaviest = std::max(heaviest, m);
-    heaviest = dealii::Utilities::MPI::max(heaviest, communicator);
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      for (int d = 0; d < dim; ++d)
-        {
-          const std::size_t k     = std::size_t(i) * dim + d;
-          const bool        light = nodal_mass[i] < light_node * heaviest;
-          const double      mean  = nodal_mass[i] > 0. ? momentum[k] / nodal_mass[i] : 0.;
-          nodal.displacement[k]   = dt * (light ? mean : nodal.velocity_n[k]);
-        }
+    for (std::size_t i = 0; i < nodal.displacement.size(); ++i)
+      nodal.displacement[i] = dt * nodal.velocity_n[i];
   }
 
 

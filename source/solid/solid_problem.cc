@@ -45,6 +45,7 @@ namespace kedge
   SolidProblem<dim>::reinit(const BackgroundGrid<dim> &grid,
                             const ActiveNodes<dim>    &nodes,
                             const NodeConditions<dim> &conditions,
+                            const NodeTies<dim>       &ties,
                             const StepPoints<dim>     &points,
                             const NodeMatrix<dim>     &mass,
                             const int                  stencil_radius,
@@ -53,16 +54,19 @@ namespace kedge
     this->grid       = &grid;
     this->nodes      = &nodes;
     this->conditions = &conditions;
+    this->ties       = &ties;
     this->points     = &points;
     this->mass       = &mass;
     if (!new_pattern)
       return;
     stiffness.reinit(nodes.n_local(), dim, stencil_radius);
-    is_free.resize(std::size_t(nodes.n_local()) * dim);
+    status.resize(std::size_t(nodes.n_local()) * dim);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       for (int d = 0; d < dim; ++d)
-        is_free[std::size_t(i) * dim + d] = !conditions.prescribed(i, d);
-    equations.reinit(grid, nodes, is_free, stiffness);
+        status[std::size_t(i) * dim + d] = conditions.prescribed(i, d) ? NodalStatus::prescribed
+                                           : ties.tie_of(i) >= 0       ? NodalStatus::tied
+                                                                       : NodalStatus::free;
+    equations.reinit(grid, nodes, ties, status, stiffness);
     linear_solver.pattern_changed();
   }
 
@@ -96,6 +100,7 @@ namespace kedge
         if (conditions->prescribed(i, d))
           state->displacement[std::size_t(i) * dim + d] =
             conditions->increment(i, d, t_n, t_n + dt);
+    ties->prolong(state->displacement);
   }
 
 
@@ -108,7 +113,8 @@ namespace kedge
     const auto                &window = grid->window();
     const std::vector<double> &u      = state->displacement;
     std::fill(internal.begin(), internal.end(), 0.);
-    const PointStatus status = internal_force.add_force(*points, window, *nodes, u, internal);
+    const PointStatus answer = internal_force.add_force(*points, window, *nodes, u, internal);
+    ties->restrict_sums(internal);
     nodes->add_to_owners(internal, dim);
     if (scheme.dynamic)
       {
@@ -118,11 +124,12 @@ namespace kedge
                                                             state->acceleration_n[i],
                                                             dt);
         multiply(*mass, window, *nodes, dim, acceleration, inertia);
+        ties->restrict_sums(inertia);
         nodes->add_to_owners(inertia, dim);
       }
 
     // squares: residual, internal, inertia, external, diagonal times displacement; failures
-    double sums[6] = {0, 0, 0, 0, 0, status.ok() ? 0. : 1.};
+    double sums[6] = {0, 0, 0, 0, 0, answer.ok() ? 0. : 1.};
     for (unsigned int e = 0; e < equations.system().n_rows(); ++e)
       {
         const unsigned int i = equations.nodal_index(e);
@@ -144,8 +151,8 @@ namespace kedge
     if (sums[5] > 0.)
       {
         result.ok    = false;
-        result.cause = status.ok() ? "a material point of another rank cannot follow the trial step"
-                                   : describe_point(status.failed_slot);
+        result.cause = answer.ok() ? "a material point of another rank cannot follow the trial step"
+                                   : describe_point(answer.failed_slot);
       }
     else if (!std::isfinite(sums[0]))
       {
@@ -222,6 +229,7 @@ namespace kedge
       return status;
     equations.scatter(solution, correction);
     nodes->update_ghosts(correction, dim);
+    ties->prolong(correction);
     double square = 0.;
     for (const double value : solution)
       square += value * value;
@@ -261,7 +269,7 @@ namespace kedge
   {
     double work = 0.;
     for (unsigned int i = 0; i < nodes->n_owned() * dim; ++i)
-      if (!is_free[i])
+      if (status[i] == NodalStatus::prescribed)
         work += residual[i] * state->displacement[i];
     return dealii::Utilities::MPI::sum(work, nodes->communicator());
   }

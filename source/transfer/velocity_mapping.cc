@@ -43,6 +43,7 @@ namespace kedge
   VelocityMapping<dim>::reinit(const BackgroundGrid<dim> &grid,
                                const ActiveNodes<dim>    &nodes,
                                const NodeConditions<dim> &conditions,
+                               const NodeTies<dim>       &ties,
                                NodeMatrix<dim>           &mass,
                                const bool                 new_pattern)
   {
@@ -58,14 +59,16 @@ namespace kedge
         traits.dominated_by_inertia = true;
         for (int d = 0; d < dim; ++d)
           {
-            std::vector<unsigned char> is_free(nodes.n_local());
+            std::vector<NodalStatus> status(nodes.n_local());
             for (unsigned int i = 0; i < nodes.n_local(); ++i)
-              is_free[i] = !conditions.prescribed(i, d);
+              status[i] = conditions.prescribed(i, d) ? NodalStatus::prescribed
+                          : ties.tie_of(i) >= 0       ? NodalStatus::tied
+                                                      : NodalStatus::free;
             unsigned int c = 0;
             int          same;
             for (; c < components.size(); ++c)
               {
-                same = components[c].is_free == is_free;
+                same = components[c].status == status;
                 MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, nodes.communicator());
                 if (same)
                   break;
@@ -74,8 +77,8 @@ namespace kedge
             if (c == components.size())
               {
                 components.emplace_back();
-                components[c].is_free = std::move(is_free);
-                components[c].equations.reinit(grid, nodes, components[c].is_free, mass);
+                components[c].status = std::move(status);
+                components[c].equations.reinit(grid, nodes, ties, components[c].status, mass);
                 components[c].solver = std::make_unique<LinearSolver>(parameters, traits);
               }
           }
@@ -128,6 +131,7 @@ namespace kedge
   LinearStatus
   VelocityMapping<dim>::solve(const BackgroundGrid<dim> &grid,
                               const ActiveNodes<dim>    &nodes,
+                              const NodeTies<dim>       &ties,
                               const NodeMatrix<dim>     &mass,
                               const std::vector<double> &momentum,
                               std::vector<double>       &nodal)
@@ -137,9 +141,9 @@ namespace kedge
     bool                any_known = false;
     for (int d = 0; d < dim; ++d)
       {
-        const auto &is_free = components[component_of_direction[d]].is_free;
+        const auto &status = components[component_of_direction[d]].status;
         for (unsigned int i = 0; i < nodes.n_local(); ++i)
-          if (!is_free[i] && nodal[std::size_t(i) * dim + d] != 0.)
+          if (status[i] == NodalStatus::prescribed && nodal[std::size_t(i) * dim + d] != 0.)
             {
               known[std::size_t(i) * dim + d] = nodal[std::size_t(i) * dim + d];
               any_known                       = true;
@@ -148,7 +152,9 @@ namespace kedge
     std::vector<double> of_known(nodal.size(), 0.);
     if (dealii::Utilities::MPI::logical_or(any_known, nodes.communicator()))
       {
+        ties.prolong(known);
         multiply(mass, grid.window(), nodes, dim, known, of_known);
+        ties.restrict_sums(of_known);
         nodes.add_to_owners(of_known, dim);
       }
 
@@ -173,6 +179,7 @@ namespace kedge
           return status;
       }
     nodes.update_ghosts(nodal, dim);
+    ties.prolong(nodal);
     return {};
   }
 

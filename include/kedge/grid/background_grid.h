@@ -91,7 +91,7 @@ namespace kedge
       return communicator_;
     }
 
-    /** Rank that owns a node of the window; only for nodes of own and ghost cells. */
+    /** Rank that owns a node of the window. */
     unsigned int
     node_owner(const unsigned int window_node) const
     {

@@ -170,6 +170,7 @@ namespace kedge
     StepPoints<dim>      step_points;
     ActiveNodes<dim>     nodes;
     NodeConditions<dim>  conditions;
+    NodeTies<dim>        ties;
     ExternalLoads<dim>   loads;
     NodeMatrix<dim>      mass;
     VelocityMapping<dim> mapping;
@@ -183,7 +184,6 @@ namespace kedge
     double                              step_t    = 0.;
     double                              step_dt   = 0.;
     double                              step_work = 0.;
-    std::vector<double>                 nodal_mass; ///< lumped, owned and ghost nodes
     std::vector<dealii::Tensor<1, dim>> point_forces;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;

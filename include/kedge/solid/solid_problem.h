@@ -44,6 +44,7 @@ namespace kedge
     reinit(const BackgroundGrid<dim> &grid,
            const ActiveNodes<dim>    &nodes,
            const NodeConditions<dim> &conditions,
+           const NodeTies<dim>       &ties,
            const StepPoints<dim>     &points,
            const NodeMatrix<dim>     &mass,
            const int                  stencil_radius,
@@ -51,7 +52,7 @@ namespace kedge
 
     /**
      * Starts a step from t_n of size dt. @p state.displacement is the
-     * predictor at the free components; the prescribed ones are set here.
+     * predictor at the free components; the prescribed and tied ones are set here.
      */
     void
     start(NodalState &state, const double t_n, const double dt);
@@ -117,6 +118,7 @@ namespace kedge
     const BackgroundGrid<dim> *grid       = nullptr;
     const ActiveNodes<dim>    *nodes      = nullptr;
     const NodeConditions<dim> *conditions = nullptr;
+    const NodeTies<dim>       *ties       = nullptr;
     const StepPoints<dim>     *points     = nullptr;
     const NodeMatrix<dim>     *mass       = nullptr;
     NodalState                *state      = nullptr;
@@ -126,7 +128,7 @@ namespace kedge
 
     NodeMatrix<dim>            stiffness;
     EquationSystem<dim>        equations;
-    std::vector<unsigned char> is_free;
+    std::vector<NodalStatus> status;
     std::vector<double>        internal, inertia, acceleration, residual, correction;
     std::vector<double>        diagonal; ///< of the last tangent, at the equations
     SolidTimings               timings_;

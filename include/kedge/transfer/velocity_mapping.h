@@ -28,17 +28,19 @@ namespace kedge
     reinit(const BackgroundGrid<dim> &grid,
            const ActiveNodes<dim>    &nodes,
            const NodeConditions<dim> &conditions,
+           const NodeTies<dim>       &ties,
            NodeMatrix<dim>           &mass,
            const bool                 new_pattern);
 
     /**
      * Solves for nodal values. On entry @p nodal holds the prescribed
      * values, on return all of them, ghosts included; @p momentum holds
-     * sum_p m N_A q_p at the owned nodes.
+     * sum_p m N_A q_p, restricted by the ties, at the owned nodes.
      */
     LinearStatus
     solve(const BackgroundGrid<dim> &grid,
           const ActiveNodes<dim>    &nodes,
+          const NodeTies<dim>       &ties,
           const NodeMatrix<dim>     &mass,
           const std::vector<double> &momentum,
           std::vector<double>       &nodal);
@@ -47,7 +49,7 @@ namespace kedge
     /** One set of equations; components with the same free nodes share it. */
     struct Component
     {
-      std::vector<unsigned char>    is_free;
+      std::vector<NodalStatus>      status;
       EquationSystem<dim>           equations;
       std::unique_ptr<LinearSolver> solver;
       bool                          is_shifted = false; ///< see LinearSolver::factorise()

@@ -1,0 +1,222 @@
+#include <kedge/transfer/node_ties.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Cells searched for a root, as distance in cells from the node. */
+    constexpr int nearest_ring = 2, farthest_ring = 4;
+
+    /** Volume of material at each node of the window, in cells (collective). */
+    template <int dim>
+    std::vector<double>
+    nodal_filling(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points)
+    {
+      double cell_volume = 1.;
+      for (int d = 0; d < dim; ++d)
+        cell_volume *= grid.lattice().h[d];
+      std::vector<double> filling(grid.window().n_nodes_total(), 0.);
+      const auto          strides = grid.window().node_strides();
+      for (unsigned int slot = 0; slot < points.size(); ++slot)
+        {
+          const Stencil<dim> &s      = points.stencil[slot];
+          const double        volume = points.volume[slot] * points.determinant[slot] / cell_volume;
+          for (int k = 0; k < (dim == 3 ? stencil_width(s.pattern, 2) : 1); ++k)
+            for (int j = 0; j < stencil_width(s.pattern, 1); ++j)
+              {
+                const double yz = volume * s.value[1][j] * (dim == 3 ? s.value[dim - 1][k] : 1.);
+                double      *row =
+                  &filling[s.first_node + j * strides[1] + (dim == 3 ? k * strides[dim - 1] : 0)];
+                for (int i = 0; i < stencil_width(s.pattern, 0); ++i)
+                  row[i] += yz * s.value[0][i];
+              }
+        }
+      if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+        MPI_Allreduce(MPI_IN_PLACE,
+                      filling.data(),
+                      static_cast<int>(filling.size()),
+                      MPI_DOUBLE,
+                      MPI_SUM,
+                      grid.communicator());
+      return filling;
+    }
+
+    /** Calls visit(cell) for all cells within @p ring cells of a node. */
+    template <int dim, typename Visit>
+    void
+    for_cells_around(const LatticeWindow<dim> &window,
+                     const LatticeIndex<dim>  &node,
+                     const int                 ring,
+                     const Visit              &visit)
+    {
+      LatticeIndex<dim> offset;
+      offset.fill(-ring);
+      while (true)
+        {
+          LatticeIndex<dim> cell;
+          for (int d = 0; d < dim; ++d)
+            cell[d] = node[d] + offset[d];
+          if (window.contains_cell(cell))
+            visit(cell);
+          int d = 0;
+          while (d < dim && ++offset[d] == ring)
+            offset[d++] = -ring;
+          if (d == dim)
+            return;
+        }
+    }
+
+    template <int dim>
+    unsigned int
+    corner(const LatticeWindow<dim> &window, const LatticeIndex<dim> &cell, const unsigned int v)
+    {
+      LatticeIndex<dim> node = cell;
+      for (int d = 0; d < dim; ++d)
+        node[d] += static_cast<int>((v >> d) & 1u);
+      return window.node_number(node);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  bool
+  NodeTies<dim>::tie_to_nearest_cell(const LatticeWindow<dim>  &window,
+                                     const std::vector<double> &filling,
+                                     const double               threshold,
+                                     Tie                       &tie) const
+  {
+    const auto                     node = window.node_index(tie.node);
+    std::vector<LatticeIndex<dim>> nearest;
+    for (int ring = nearest_ring; ring <= farthest_ring && nearest.empty(); ++ring)
+      {
+        int best = std::numeric_limits<int>::max();
+        for_cells_around<dim>(window, node, ring, [&](const LatticeIndex<dim> &cell) {
+          int distance = 0; // four times the square of the distance to the centre
+          for (int d = 0; d < dim; ++d)
+            distance += (2 * (node[d] - cell[d]) - 1) * (2 * (node[d] - cell[d]) - 1);
+          if (distance > best)
+            return;
+          for (unsigned int v = 0; v < (1u << dim); ++v)
+            if (filling[corner<dim>(window, cell, v)] < threshold)
+              return;
+          if (distance < best)
+            nearest.clear();
+          best = distance;
+          nearest.push_back(cell);
+        });
+      }
+    // cells at the same distance share the tie, so that symmetry is kept
+    std::map<unsigned int, double> weights;
+    for (const auto &cell : nearest)
+      for (unsigned int v = 0; v < (1u << dim); ++v)
+        {
+          double weight = 1. / static_cast<double>(nearest.size());
+          for (int d = 0; d < dim; ++d)
+            {
+              const double xi = node[d] - cell[d];
+              weight *= (v >> d) & 1u ? xi : 1. - xi;
+            }
+          weights[corner<dim>(window, cell, v)] += weight;
+        }
+    for (const auto &[root, weight] : weights)
+      if (weight != 0.)
+        {
+          tie.roots.push_back(root);
+          tie.weights.push_back(weight);
+        }
+    return !nearest.empty();
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::find(const BackgroundGrid<dim>  &grid,
+                      const StepPoints<dim>      &points,
+                      const double                threshold,
+                      std::vector<unsigned char> &reached)
+  {
+    const std::vector<Tie> before = std::move(window_ties);
+    window_ties.clear();
+    if (threshold > 0.)
+      {
+        const std::vector<double> filling = nodal_filling(grid, points);
+        for (unsigned int node = 0; node < reached.size(); ++node)
+          if (reached[node] && filling[node] < threshold)
+            {
+              Tie tie{node, {}, {}, 0};
+              if (tie_to_nearest_cell(grid.window(), filling, threshold, tie))
+                window_ties.push_back(std::move(tie));
+            }
+        for (const Tie &tie : window_ties)
+          for (const unsigned int root : tie.roots)
+            reached[root] = 1;
+      }
+    changed_ = window_ties.size() != before.size();
+    for (unsigned int i = 0; i < window_ties.size() && !changed_; ++i)
+      changed_ = window_ties[i].node != before[i].node || window_ties[i].roots != before[i].roots;
+    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      changed_ = dealii::Utilities::MPI::logical_or(changed_, grid.communicator());
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::localise(const ActiveNodes<dim> &nodes, const NodeConditions<dim> &conditions)
+  {
+    local_ties = window_ties;
+    tie_numbers.clear();
+    if (!local_ties.empty())
+      tie_numbers.assign(nodes.n_local(), -1);
+    for (unsigned int i = 0; i < local_ties.size(); ++i)
+      {
+        Tie &tie = local_ties[i];
+        tie.node = nodes.local(tie.node);
+        for (unsigned int &root : tie.roots)
+          root = nodes.local(root);
+        for (int d = 0; d < dim; ++d)
+          if (!conditions.prescribed(tie.node, d))
+            tie.components |= 1u << d;
+        tie_numbers[tie.node] = static_cast<int>(i);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::prolong(std::vector<double> &nodal) const
+  {
+    for (const Tie &tie : local_ties)
+      for (int d = 0; d < dim; ++d)
+        if ((tie.components >> d) & 1u)
+          {
+            double value = 0.;
+            for (unsigned int k = 0; k < tie.roots.size(); ++k)
+              value += tie.weights[k] * nodal[std::size_t(tie.roots[k]) * dim + d];
+            nodal[std::size_t(tie.node) * dim + d] = value;
+          }
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::restrict_sums(std::vector<double> &sums) const
+  {
+    for (const Tie &tie : local_ties)
+      for (int d = 0; d < dim; ++d)
+        if ((tie.components >> d) & 1u)
+          {
+            double &value = sums[std::size_t(tie.node) * dim + d];
+            for (unsigned int k = 0; k < tie.roots.size(); ++k)
+              sums[std::size_t(tie.roots[k]) * dim + d] += tie.weights[k] * value;
+            value = 0.;
+          }
+  }
+
+  template class NodeTies<2>;
+  template class NodeTies<3>;
+} // namespace kedge
