@@ -6,8 +6,8 @@
 //   I theta'' = -m g L/2 sin(theta),  I = m (L^2/3 + b^2/12),
 // and reaches the vertical after K(1/2) / w, w^2 = m g L / (2 I), where
 // K(1/2) = 1.854074677 is the complete elliptic integral of the parameter
-// sin^2(45 degrees). Ours is stiff enough to agree within a few parts in a
-// thousand.
+// sin^2(45 degrees). Ours bends by a hundredth of its length on the way, too
+// little to matter: 0.5 % are allowed below.
 
 #include <kedge/base/single_process.h>
 #include <kedge/simulation/step_engine.h>
@@ -15,24 +15,24 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 
 namespace
 {
   constexpr double length = 1., width = 0.125, gravity = 10.;
+  const double     vertical = std::acos(0.);
 
-  // A Scene is a plain collection of parameter structs; what stands in a scene
-  // file under "Grid" is scene.grid here, and so on. All in SI units.
+  // A Scene is a collection of parameter structs: section "Grid" of a scene file
+  // is scene.grid here, and so on. All in SI units.
   kedge::Scene<2>
   make_scene()
   {
     kedge::Scene<2> scene;
     scene.name = "pendulum";
 
-    // The box in which the rod may move: points that leave it stop the run.
-    // Its cells cost nothing where there are no material points.
+    // The box in which the rod may move. Empty cells cost nothing.
     scene.grid.origin  = {-1.5, -1.5};
     scene.grid.extent  = dealii::Tensor<1, 2>({3., 3.});
     scene.grid.n_cells = {48, 48}; // cells of 0.0625 m, two over the rod's width
@@ -65,15 +65,14 @@ namespace
     scene.constants  = {{"g", gravity}};
     scene.body_force = {"0", "-g"}; // may depend on t
 
-    // The scheme that conserves energy and momenta, 50 steps to the vertical or so.
+    // The scheme that conserves energy; about 50 steps to the vertical.
     scene.time.scheme = kedge::SchemeKind::clc_midpoint;
     scene.time.end    = 1.;
     scene.time.step   = 0.01;
     return scene;
   }
 
-  // The angle by which the line from the hinge to the centre of mass has
-  // turned below the horizontal, from what the material points know.
+  // The angle between the horizontal and the line from hinge to centre of mass.
   double
   angle(const kedge::StepEngine<2> &engine)
   {
@@ -119,7 +118,7 @@ main(int argc, char **argv)
         {
           std::cout << "step refused: " << step.cause << '\n';
           if (step.hopeless || !clock.cut_step())
-            return EXIT_FAILURE;
+            return 1;
           continue;
         }
       const double angle_before = angle(engine), time_before = clock.time();
@@ -132,8 +131,7 @@ main(int argc, char **argv)
       largest_energy = std::max(largest_energy, row.kinetic_energy);
       largest_error = std::max(largest_error, std::abs(row.total_energy() - initial_energy - work));
 
-      // The moment of passing the vertical, linear within the step.
-      const double vertical = std::acos(0.), angle_now = angle(engine);
+      const double angle_now = angle(engine); // taken as linear within the step
       if (angle_now >= vertical)
         time_down = time_before + (clock.time() - time_before) * (vertical - angle_before) /
                                     (angle_now - angle_before);
@@ -145,6 +143,6 @@ main(int argc, char **argv)
             << "largest error of the energy books, relative: " << largest_error / largest_energy
             << std::endl;
   const bool good =
-    std::abs(time_down / rigid - 1.) < 0.01 && largest_error < 1e-9 * largest_energy;
-  return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    std::abs(time_down / rigid - 1.) < 0.005 && largest_error < 1e-9 * largest_energy;
+  return good ? 0 : 1;
 }
