@@ -52,13 +52,17 @@ namespace kedge
       std::vector<NodalStatus>      status;
       EquationSystem<dim>           equations;
       std::unique_ptr<LinearSolver> solver;
-      bool                          is_shifted = false; ///< see LinearSolver::factorise()
+      SparseSystem                  raised; ///< with a slightly larger diagonal
+      bool                          is_factorised = false;
     };
 
     LinearStatus
     factorise(Component &component);
     LinearStatus
-    solve_component(Component                 &component,
+    solve_component(const BackgroundGrid<dim> &grid,
+                    const ActiveNodes<dim>    &nodes,
+                    const NodeMatrix<dim>     &mass,
+                    Component                 &component,
                     const std::vector<double> &right_side,
                     std::vector<double>       &solution);
 
