@@ -103,22 +103,31 @@ namespace kedge
   LinearStatus
   VelocityMapping<dim>::solve_component(const BackgroundGrid<dim> &grid,
                                         const ActiveNodes<dim>    &nodes,
+                                        const NodeTies<dim>       &ties,
                                         const NodeMatrix<dim>     &mass,
+                                        const int                  direction,
                                         Component                 &component,
                                         const std::vector<double> &right_side,
                                         std::vector<double>       &solution)
   {
     LinearStatus        status = component.solver->solve(right_side, solution);
-    std::vector<double> nodal, product(nodes.n_local()), defect, correction;
+    std::vector<double> nodal(std::size_t(nodes.n_local()) * dim, 0.), product(nodal.size());
+    std::vector<double> defect(right_side.size()), correction;
+    const auto          index = [&](const unsigned int equation) {
+      return std::size_t(component.equations.nodal_index(equation)) * dim + direction;
+    };
     for (unsigned int k = 0; status.success && k < most_corrections; ++k)
       {
-        component.equations.scatter(solution, nodal);
-        nodes.update_ghosts(nodal, 1);
-        multiply(mass, grid.window(), nodes, 1, nodal, product);
-        nodes.add_to_owners(product, 1);
-        component.equations.gather(product, defect);
+        // C^T M~ C, as the equations have it
+        for (unsigned int e = 0; e < solution.size(); ++e)
+          nodal[index(e)] = solution[e];
+        nodes.update_ghosts(nodal, dim);
+        ties.prolong(nodal);
+        multiply(mass, grid.window(), nodes, dim, nodal, product);
+        ties.restrict_sums(product);
+        nodes.add_to_owners(product, dim);
         for (unsigned int e = 0; e < defect.size(); ++e)
-          defect[e] = right_side[e] - defect[e];
+          defect[e] = right_side[e] - product[index(e)];
         status = component.solver->solve(defect, correction);
 
         double energies[2] = {0., 0.}; // of the correction and of the whole
@@ -181,7 +190,7 @@ namespace kedge
                   const std::size_t i = std::size_t(component.equations.nodal_index(e)) * dim + d;
                   right_side[e]       = momentum[i] - of_known[i];
                 }
-              status = solve_component(grid, nodes, mass, component, right_side, solution);
+              status = solve_component(grid, nodes, ties, mass, d, component, right_side, solution);
               for (unsigned int e = 0; e < right_side.size(); ++e)
                 nodal[std::size_t(component.equations.nodal_index(e)) * dim + d] = solution[e];
             }

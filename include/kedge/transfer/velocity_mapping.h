@@ -61,7 +61,9 @@ namespace kedge
     LinearStatus
     solve_component(const BackgroundGrid<dim> &grid,
                     const ActiveNodes<dim>    &nodes,
+                    const NodeTies<dim>       &ties,
                     const NodeMatrix<dim>     &mass,
+                    const int                  direction,
                     Component                 &component,
                     const std::vector<double> &right_side,
                     std::vector<double>       &solution);
