@@ -142,8 +142,11 @@ namespace kedge
     if (threshold > 0.)
       {
         const std::vector<double> filling = nodal_filling(grid, points);
+        const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
         for (unsigned int node = 0; node < reached.size(); ++node)
-          if (reached[node] && filling[node] < threshold)
+          // the owner must know, too, of what only others reach
+          if ((reached[node] || (filling[node] > 0. && grid.node_owner(node) == rank)) &&
+              filling[node] < threshold)
             {
               Tie tie{node, {}, {}, 0};
               if (tie_to_nearest_cell(grid.window(), filling, threshold, tie))
