@@ -1,2 +1,77 @@
 # The scenes that are run as tests; kedge_add_scene_test is explained in
-# kedge_tests.cmake.
+# kedge_tests.cmake. Each runs on one and on two ranks, passes its own checks
+# on both, and both write the same history.
+
+# --- The scenes of prm/, in the size in which they ship or smaller ------------
+kedge_add_scene_test(scene.column_quasi_static prm/column_quasi_static.prm
+  COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.column_quasi_static.stiff prm/column_quasi_static.prm
+  SET "Constants/E = 1e6" "Constants/steps = 20" "Constants/n = 32")
+kedge_add_scene_test(scene.column_dynamic prm/column_dynamic.prm
+  SET "Constants/n = 50" "Output/Points interval = 0" COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.cantilever_static prm/cantilever_static.prm
+  COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.cantilever_dynamic_a prm/cantilever_dynamic_a.prm
+  SET "Constants/points = 4" COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.cantilever_dynamic_b prm/cantilever_dynamic_b.prm
+  SET "Constants/points = 4")
+kedge_add_scene_test(scene.discs_elastic prm/discs_elastic.prm
+  SET "Constants/points = 12" COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.spinning_body prm/spinning_body.prm
+  SET "Constants/h = 1" COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.translating_body prm/translating_body.prm
+  COMPARE_RANKS 1e-9)
+kedge_add_scene_test(scene.translating_body.linear prm/translating_body.prm
+  SET "Bodies/disc/Basis = linear")
+kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.block_3d prm/block_3d.prm
+  SET "Constants/h = 0.5" COMPARE_RANKS 1e-6)
+
+# --- Free fall with every scheme ----------------------------------------------
+foreach(scheme clc-midpoint midpoint trapezoidal newmark generalised-alpha)
+  kedge_add_scene_test(scene.falling_body.${scheme} prm/falling_body.prm
+    SET "Time/Scheme = ${scheme}")
+endforeach()
+# the printed forms forget the acceleration: v = gamma g t, gamma as in Table 3.4
+kedge_add_scene_test(scene.falling_body.printed_trapezoidal prm/falling_body.prm
+  SET "Time/Scheme = trapezoidal" "Time/Carry acceleration = false"
+    "Checks/velocity/Reference = -g*T/2" "Checks/distance/Tolerance = 1"
+    "Checks/energy books/Tolerance = 1")
+kedge_add_scene_test(scene.falling_body.printed_newmark prm/falling_body.prm
+  SET "Time/Scheme = newmark" "Time/Newmark beta = 1/6" "Time/Newmark gamma = 1/3"
+    "Time/Carry acceleration = false" "Checks/velocity/Reference = -g*T/3"
+    "Checks/distance/Tolerance = 2" "Checks/energy books/Tolerance = 1")
+
+# --- Killed and resumed: bit for bit the same ---------------------------------
+kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
+  SET "Time/End = 10" "Output/Checkpoint every steps = 5")
+kedge_add_restart_test(scene.restart.2ranks prm/quickstart.prm KILLS 2 RANKS 2
+  SET "Time/End = 0.5" "Output/Checkpoint every steps = 5")
+
+# --- What a user may get wrong: refused with the cause, exit code 1 -----------
+function(kedge_add_refusal_test name message)
+  kedge_add_scene_test(refusal.${name} tests/scenes/bad_input/${name}.prm
+    EXPECT_EXIT 1 EXPECT_STDERR "${message}" LABELS refusal ${ARGN})
+endfunction()
+kedge_add_refusal_test(unknown_key
+  "unknown_key\\.prm:11: .*Materials/rubber/Densty.*Did you mean 'Density'\\?")
+kedge_add_refusal_test(wrong_type "wrong_type\\.prm:6: Grid/Cells = 4, many: .*'many'.*whole number")
+kedge_add_refusal_test(negative_density
+  "negative_density\\.prm:11: Materials/rubber/Density = -1000: .*greater than 0")
+kedge_add_refusal_test(empty_body "Body 'block' got no material point")
+kedge_add_refusal_test(outside_grid
+  "outside_grid\\.prm:19: Bodies/block/Geometry = .*from 3\\.5 to 4\\.5 in direction x, the grid only from 0 to 4")
+kedge_add_refusal_test(same_points "'other block'.*'block'|'block'.*'other block'")
+kedge_add_refusal_test(missing_file "missing_file\\.prm.*No such file")
+# no process waits for another that has given up
+kedge_add_scene_test(refusal.empty_body.2ranks tests/scenes/bad_input/empty_body.prm
+  RANKS 2 EXPECT_EXIT 1 EXPECT_STDERR "Body 'block' got no material point" LABELS refusal)
+kedge_add_scene_test(refusal.unwritable_folder tests/scenes/bad_input/good.prm
+  OPTIONS --output=/dev/null/run EXPECT_EXIT 1
+  EXPECT_STDERR "output folder '/dev/null/run'.*--output" LABELS refusal)
+kedge_add_scene_test(refusal.unknown_option tests/scenes/bad_input/good.prm
+  OPTIONS --ouput=here EXPECT_EXIT 1 EXPECT_STDERR "Did you mean --output\\?" LABELS refusal)
+kedge_add_test(refusal.checkpoints LABELS scene refusal
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/scenes/spoilt_checkpoints.py
+    $<TARGET_FILE:kedge> ${CMAKE_CURRENT_SOURCE_DIR}/scenes/bad_input/good.prm
+    ${CMAKE_CURRENT_BINARY_DIR}/scenes/spoilt_checkpoints)

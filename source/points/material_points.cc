@@ -1,7 +1,5 @@
 #include <kedge/points/material_points.h>
 
-#include <deal.II/base/mpi.templates.h>
-
 #include <cstring>
 
 namespace kedge
@@ -125,37 +123,16 @@ namespace kedge
 
 
   template <int dim>
-  bool
-  MaterialPoints<dim>::relocate_within_rank(const BackgroundGrid<dim> &grid)
+  void
+  MaterialPoints<dim>::relocate_within_rank(const BackgroundGrid<dim>   &grid,
+                                            const std::vector<Iterator> &movers)
   {
-    using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
-    std::vector<std::pair<Iterator, typename BackgroundGrid<dim>::CellIterator>> movers;
-    for (auto particle = handler->begin(); particle != handler->end(); ++particle)
-      {
-        const auto &cell = grid.cell_iterator(grid.lattice().cell_of(particle->get_location()));
-        if (particle->get_surrounding_cell() != cell)
-          {
-            if (!cell->is_locally_owned())
-              return false;
-            movers.emplace_back(particle, cell);
-          }
-      }
-    if (movers.empty())
-      return true;
-
     std::vector<PointRecord<dim>> copies;
-    std::vector<Iterator>         leaving;
-    for (const auto &[particle, cell] : movers)
-      {
-        (void)cell;
-        copies.push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
-        leaving.push_back(particle);
-      }
-    handler->remove_particles(leaving);
-    for (unsigned int i = 0; i < movers.size(); ++i)
-      insert(grid, copies[i]);
-    handler->update_cached_numbers();
-    return true;
+    for (const Iterator &particle : movers)
+      copies.push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
+    handler->remove_particles(movers);
+    for (const auto &copy : copies)
+      insert(grid, copy);
   }
 
 
@@ -164,14 +141,22 @@ namespace kedge
   std::uint64_t
   MaterialPoints<dim>::relocate(const BackgroundGrid<dim> &grid)
   {
-    bool within = relocate_within_rank(grid);
-    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-      within = !dealii::Utilities::MPI::logical_or(!within, grid.communicator());
-    if (!within)
+    std::vector<Iterator> movers;
+    bool                  leaves_rank = false;
+    for (auto particle = handler->begin(); particle != handler->end(); ++particle)
       {
-        handler->sort_particles_into_subdomains_and_cells();
-        handler->update_cached_numbers();
+        const auto &cell = grid.cell_iterator(grid.lattice().cell_of(particle->get_location()));
+        if (particle->get_surrounding_cell() == cell)
+          continue;
+        movers.push_back(particle);
+        leaves_rank =
+          leaves_rank || cell == grid.triangulation().end() || !cell->is_locally_owned();
       }
+    if (dealii::Utilities::MPI::logical_or(leaves_rank, grid.communicator()))
+      handler->sort_particles_into_subdomains_and_cells();
+    else if (!movers.empty())
+      relocate_within_rank(grid, movers);
+    handler->update_cached_numbers();
     return n_global_ - handler->n_global_particles();
   }
 

@@ -103,8 +103,10 @@ namespace kedge
     void
     insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
 
-    bool
-    relocate_within_rank(const BackgroundGrid<dim> &grid);
+    using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
+
+    void
+    relocate_within_rank(const BackgroundGrid<dim> &grid, const std::vector<Iterator> &movers);
 
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
     std::uint64_t                                            n_global_ = 0;
