@@ -341,7 +341,7 @@ namespace kedge
                   allow.number(fraction),
                   "Mass matrix from 0, consistent, to 1, lumped [-]."},
                  {"Smallest filling",
-                  "0.1",
+                  "0.05",
                   allow.number(fraction),
                   "A node with less material than this is tied to the nearest well-filled cell; "
                   "0: no ties [cells]."},

@@ -70,6 +70,7 @@ namespace kedge
                                                                       "residual",
                                                                       "correction"});
 
+    engine.initialise_accelerations(clock.time());
     engine.write_books(row);
     row.time                = clock.time();
     totals.initial_energy   = row.total_energy();

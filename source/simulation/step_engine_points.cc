@@ -215,6 +215,35 @@ namespace kedge
 
   template <int dim>
   void
+  StepEngine<dim>::initialise_accelerations(const double t)
+  {
+    if (!scheme.carries_acceleration)
+      return;
+    activate();
+    apply_external_forces(t);
+    const std::size_t   size = std::size_t(nodes.n_local()) * dim;
+    std::vector<double> internal(size, 0.), at_nodes(size, 0.);
+    const std::vector<double> at_rest(size, 0.);
+    InternalForce<dim>(material_of_body, StressRule::at_configuration, 1.)
+      .add_force(step_points, background.window(), nodes, at_rest, internal);
+    ties.restrict_sums(internal);
+    nodes.add_to_owners(internal, dim);
+    std::vector<double> force(size);
+    for (std::size_t i = 0; i < size; ++i)
+      force[i] = nodal.external_force[i] - internal[i];
+    const LinearStatus status = mapping.solve(background, nodes, ties, mass, force, at_nodes);
+    AssertThrow(status.success, dealii::ExcMessage("mass matrix: " + status.cause));
+    interpolate_to_points(step_points, background.window(), nodes, at_nodes, accelerations);
+    cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
+      state.acceleration = accelerations[step_points.slot_of[number]];
+    });
+    activated = false;
+  }
+
+
+
+  template <int dim>
+  void
   StepEngine<dim>::update_velocities(const unsigned int slot, PointState<dim> &state) const
   {
     if (scene.transfer.velocity_mapping == VelocityUpdate::flip)

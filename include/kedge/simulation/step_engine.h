@@ -62,6 +62,13 @@ namespace kedge
     double
     cfl_step(const StepSizeKind kind);
 
+    /**
+     * Gives the points the acceleration of equilibrium at the start,
+     * M a = f_ext(t) - f_int, for schemes that carry it (collective).
+     */
+    void
+    initialise_accelerations(const double t);
+
     /** One attempt, from time @p t to @p t + @p dt. */
     StepReport
     try_step(const double t, const double dt);
