@@ -35,7 +35,7 @@ namespace
     // The box in which the rod may move. Empty cells cost nothing.
     scene.grid.origin  = {-1.5, -1.5};
     scene.grid.extent  = dealii::Tensor<1, 2>({3., 3.});
-    scene.grid.n_cells = {48, 48}; // cells of 0.0625 m, two over the rod's width
+    scene.grid.n_cells = {{48, 48}}; // cells of 0.0625 m, two over the rod's width
 
     kedge::MaterialParameters rubber;
     rubber.name          = "rubber";
@@ -49,8 +49,8 @@ namespace
     rod.name     = "rod";
     rod.geometry = kedge::parse_geometry<2>("box(0, -b/2; L, b/2)", {{"L", length}, {"b", width}});
     rod.material = 0; // index into scene.materials
-    rod.points_per_cell  = {3, 3};
-    rod.initial_velocity = {"0", "0"}; // expressions, as in a scene file
+    rod.points_per_cell  = {{3, 3}};
+    rod.initial_velocity = {{"0", "0"}}; // expressions, as in a scene file
     scene.bodies         = {rod};
 
     // The hinge: one node of the grid that does not move.
@@ -63,7 +63,7 @@ namespace
     scene.node_conditions = {hinge};
 
     scene.constants  = {{"g", gravity}};
-    scene.body_force = {"0", "-g"}; // may depend on t
+    scene.body_force = {{"0", "-g"}}; // may depend on t
 
     // The scheme that conserves energy; about 50 steps to the vertical.
     scene.time.scheme = kedge::SchemeKind::clc_midpoint;

@@ -103,11 +103,6 @@ namespace kedge
     void
     insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
 
-    using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
-
-    void
-    relocate_within_rank(const BackgroundGrid<dim> &grid, const std::vector<Iterator> &movers);
-
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
     std::uint64_t                                            n_global_ = 0;
   };
