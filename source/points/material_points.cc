@@ -118,11 +118,12 @@ namespace kedge
         (stays ? staying : leaving)
           .push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
       }
-    if (!movers.empty())
+    const bool parallel = dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1;
+    if (parallel || !movers.empty()) // counts the particles anew: collective
       handler->remove_particles(movers);
     for (const auto &record : staying)
       insert(grid, record);
-    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+    if (parallel)
       for (const auto &record : send_to_owners(grid, leaving))
         insert(grid, record);
     handler->update_cached_numbers();
