@@ -6,7 +6,7 @@
 kedge_add_scene_test(scene.column_quasi_static prm/column_quasi_static.prm
   COMPARE_RANKS 1e-7)
 kedge_add_scene_test(scene.column_quasi_static.stiff prm/column_quasi_static.prm
-  SET "Constants/E = 1e6" "Constants/steps = 20" "Constants/n = 32")
+  SET "Constants/E = 1e6" "Constants/steps = 20" "Constants/n = 64")
 kedge_add_scene_test(scene.column_dynamic prm/column_dynamic.prm
   SET "Constants/n = 50" "Output/Points interval = 0" COMPARE_RANKS 1e-7)
 kedge_add_scene_test(scene.cantilever_static prm/cantilever_static.prm

@@ -1,0 +1,208 @@
+#include "scene_text.h"
+
+using namespace scene_tests;
+
+
+
+TEST(SceneRead, UnknownNamesAreAnsweredWithTheNearest)
+{
+  expect_parts(message_of(with("set Title", "set Titel")),
+               {"folder/beam.prm:3: ", "Titel", "Did you mean 'Title'?"});
+  expect_parts(message_of(with("subsection Grid", "subsection Gird")),
+               {"folder/beam.prm:12: ", "'Gird'", "Did you mean 'Grid'?"});
+  expect_parts(message_of(with("set Density", "set Densty")),
+               {"folder/beam.prm:20: ", "Materials/soft/Densty", "Did you mean 'Density'?"});
+  expect_parts(message_of(with("set Component x = fixed", "set Component z = fixed")),
+               {"Node conditions/wall/Component z", "'Component x'"});
+  expect_parts(message_of(with("Material = stiff", "Material = stif")),
+               {"Bodies/beam/Material = stif", "Materials/stif", "Did you mean 'stiff'?"});
+  expect_parts(message_of(with("Scheme = generalised-alpha", "Scheme = generalized-alpha")),
+               {"Time/Scheme = generalized-alpha", "did you mean generalised-alpha?"});
+  expect_parts(message_of(with("displacement, det_F", "displacement, detF")),
+               {"Output/Fields", "did you mean det_F?"});
+  expect_parts(message_of(with("Side = x-", "Side = lft")), {"did you mean left?"});
+  expect_parts(message_of(with("Side = x-", "Side = back")), {"one of left, right, bottom, top"});
+  expect_parts(message_of(with("probe.tip.", "probe.tp.")),
+               {"Checks/deflection/Quantity", "Did you mean 'tip'?"});
+  expect_parts(message_of(with("drift(", "drfit(")), {"did you mean drift?"});
+  expect_parts(message_of(with("velocity(sin", "velocty(sin")), {"did you mean velocity?"});
+  expect_parts(message_of(full_scene, {"Bodies/bem/Points per cell = 2"}),
+               {"option --set: Bodies/bem/", "Did you mean 'beam'?"});
+  expect_parts(message_of(full_scene, {"Boddies/beam/Basis = gimp"}),
+               {"option --set: ", "Did you mean 'Bodies'?"});
+  for (const char *load : {"end load/Body", "top/Body"})
+    expect_parts(message_of(full_scene,
+                            {(load[0] == 'e' ? "Point loads/" : "Tractions/") + std::string(load) +
+                             " = baem"}),
+                 {"There is no Bodies/baem", "Did you mean 'beam'?"});
+  expect_parts(message_of(full_scene, {"Probes/tip/Body = baem"}), {"Did you mean 'beam'?"});
+}
+
+TEST(SceneRead, WrongValuesAreAnsweredWithWhatIsAllowed)
+{
+  struct Case
+  {
+    std::string entry, value, problem;
+  };
+  const std::vector<Case> cases = {
+    {"Materials/soft/Density", "-3", "greater than 0"},
+    {"Materials/soft/Density", "heavy", "\"heavy\""},
+    {"Materials/soft/Young's modulus", "0", "greater than 0"},
+    {"Materials/soft/Poisson's ratio", "0.5", "greater than -1 and less than 0.5"},
+    {"Materials/soft/Poisson's ratio", "-1", "greater than -1"},
+    {"Materials/soft/Density", "", "must be given"},
+    {"Grid/Cells", "0, 3", "at least 1"},
+    {"Grid/Cells", "2.5, 3", "whole number"},
+    {"Grid/Cells", "3", "2 numbers"},
+    {"Grid/Extent", "1, 2, 3", "2 numbers separated by commas or semicolons, not 3"},
+    {"Grid/Extent", "0, 1", "greater than 0"},
+    {"Bodies/beam/Geometry", "", "must be given"},
+    {"Bodies/beam/Geometry", "blob(1)", "There is no shape 'blob'"},
+    {"Bodies/beam/Geometry", "box(0, 0; 12, 1)", "from 0 to 12 in direction x, the grid"},
+    {"Bodies/beam/Points per cell", "0", "at least 1"},
+    {"Bodies/beam/Points per cell", "1, 2, 3", "2 numbers"},
+    {"Bodies/beam/Body force", "yes", "true, false"},
+    {"Bodies/beam/Initial velocity", "0", "2 expressions"},
+    {"Bodies/beam/Initial velocity", "0; t", "\"t\""},
+    {"Node conditions/wall/Where", "x < 1", "Only one of Side and Where"},
+    {"Node conditions/wall/Side", "", "Either Side or Where"},
+    {"Node conditions/wall/Component x", "free", "does nothing"},
+    {"Node conditions/wall/Component x", "velocity(x)", "\"x\""},
+    {"Node conditions/pin/Where", "x = 0", "=="},
+    {"Body force/Acceleration", "0; -g", "\"g\""},
+    {"Point loads/end load/Points", "0", "at least 1"},
+    {"Tractions/top/Side", "up", "did you mean top?"},
+    {"Time/End", "1", "later than Start = 1"},
+    {"Time/Step", "0", "greater than 0"},
+    {"Time/Step", "cfl", "write for example 15 cfl"},
+    {"Time/Step", "15 clf", "FACTOR initial cfl"},
+    {"Time/Break times", "0.5", "later than Start"},
+    {"Time/Break times", "4", "not after End"},
+    {"Time/Smallest step factor", "2", "at most 1"},
+    {"Time/Spectral radius", "1.1", "at most 1"},
+    {"Newton/Tolerance", "0", "greater than 0"},
+    {"Newton/Iterations", "0", "at least 1"},
+    {"Mapping/Lumping", "-1", "at least 0"},
+    {"Output/Formats", "vtk", "did you mean vtu?"},
+    {"Output/Points interval", "-1", "at least 0"},
+    {"Probes/tip/Face", "left", "Only one of Place and Face"},
+    {"Probes/tip/Place", "", "Either Place or Face"},
+    {"Checks/deflection/Quantity", "history.mass", "statistic(column)"},
+    {"Checks/deflection/Quantity", "last(mass)", "history.COLUMN or probe.NAME.COLUMN"},
+    {"Checks/deflection/Quantity", "last(probe.tip)", "probe.NAME.COLUMN"},
+    {"Checks/stress/Quantity", "point_error(history.mass)", "field of the material points"},
+    {"Checks/deflection/Time", "", "needs the time"},
+    {"Checks/deflection/Time", "4", "between Time/Start and Time/End"},
+    {"Checks/deflection/Exact", "X", "point_error only"},
+    {"Checks/stress/Exact", "", "needs the exact field"},
+    {"Checks/stress/Exact", "x", "\"x\""},
+    {"Checks/deflection/Reference", "", "known answer must be given"},
+    {"Checks/deflection/Tolerance", "-1 %", "at least 0"},
+    {"Checks/deflection/Scale", "0", "greater than 0"},
+    {"Checks/deflection/Source", "", "must be given"}};
+  for (const auto &[entry, value, problem] : cases)
+    expect_parts(message_of(full_scene, {entry + " = " + value}),
+                 {"option --set: ", entry, value, problem});
+}
+
+TEST(SceneRead, ErrorsNameFileAndLine)
+{
+  expect_parts(message_of(with("Reference = -8.28", "Reference = 0")),
+               {":138: Checks/deflection/Tolerance = 0.5 %", "percentage of the reference 0"});
+  expect_parts(message_of(with("Density = 1000", "Density = -1000")),
+               {"folder/beam.prm:20: Materials/soft/Density = -1000: ", "greater than 0"});
+  expect_parts(message_of(with("    set Density = 1000\n", "")),
+               {"folder/beam.prm:19: Materials/soft/Density must be given: a number"});
+  expect_parts(message_of(with("set End = 1 + 2*h", "set End = 1")),
+               {"folder/beam.prm:85: Time/End = 1: "});
+}
+
+TEST(SceneRead, NamesAreUniqueAndSimple)
+{
+  expect_parts(message_of(full_scene + "subsection Bodies\nsubsection beam\nend\nend\n"),
+               {"folder/beam.prm:", "the name Bodies/beam is given a second time; line 33"});
+  expect_parts(message_of(with("subsection tip", "subsection t.p")),
+               {"the name 't.p' may not hold"});
+  expect_parts(message_of(with("subsection beam", "subsection a/b")), {"'a/b' may not hold"});
+}
+
+TEST(SceneRead, EntriesStandWhereTheyBelong)
+{
+  expect_parts(message_of(with_line("subsection Bodies", "set Material = soft")),
+               {"Bodies/Material", "Bodies/<name>/<entry>"});
+  expect_parts(message_of(with_line("subsection Grid", "subsection fine\nend")),
+               {"Grid/fine", "no subsections"});
+  expect_parts(message_of(with_line("subsection beam", "subsection part\nend")),
+               {"Bodies/beam/part", "one level only"});
+  expect_parts(message_of(full_scene, {"Grid/fine/Cells = 3"}), {"Section Grid holds no"});
+}
+
+TEST(SceneRead, ConstantsAreChecked)
+{
+  expect_parts(message_of(with("set h = 1", "set h = 1\n  set t = 3")),
+               {":8: Constants/t", "is taken"});
+  expect_parts(message_of(with("set h = 1", "set h = 1\n  set 2a = 3")),
+               {"Constants/2a", "letters"});
+  expect_parts(message_of(with("set h = 1", "set h = 1\n  set sin = 3")), {"Constants/sin"});
+  expect_parts(message_of(with("set h = 1", "set h = L/10")),
+               {"Constants/", "each needs another", "force, h, L"});
+  expect_parts(message_of(with("set h = 1", "set h = 1 + foo")), {":7: Constants/h", "\"foo\""});
+  expect_parts(message_of(with("set h = 1", "set h =")), {":7: Constants/h", "empty"});
+}
+
+TEST(SceneRead, TheDimensionIsNeededAndObeyed)
+{
+  const auto message = [](const std::string &text) {
+    try
+      {
+        scene_dimension(parse(text));
+      }
+    catch (const UserError &error)
+      {
+        return std::string(error.what());
+      }
+    return std::string("no error");
+  };
+  EXPECT_EQ(scene_dimension(parse(small_scene)), 3u);
+  expect_parts(message("set Dimension = 4"),
+               {"beam.prm:1: Dimension = 4", "2 (plane strain) or 3"});
+  expect_parts(message("set Title = a"), {"beam.prm: Dimension must be given"});
+  expect_parts(message("set Dimensoin = 3"), {"Did you mean 'Dimension'?"});
+  expect_parts(message_of<3>(full_scene), {"3"});
+}
+
+TEST(SceneRead, ASceneNeedsABody)
+{
+  const std::size_t begin = small_scene.find("subsection Bodies");
+  const std::size_t end   = small_scene.find("subsection Time");
+  const std::string text  = small_scene.substr(0, begin) + small_scene.substr(end);
+  expect_parts(message_of<3>(text), {"has no body", "Bodies/<name>"});
+  expect_parts(message_of<3>(text + "subsection Bodies\nend\n"), {"beam.prm:17: ", "has no body"});
+}
+
+TEST(ScenePrintParameters, ShowsEveryEntryWithUnitDefaultAndAllowedValues)
+{
+  std::ostringstream out;
+  print_parameters(out);
+  expect_parts(out.str(),
+               {"subsection Bodies\n  subsection <name>\n",
+                "# Mass per volume of the undeformed body [kg/m^3].\n"
+                "    # Allowed: a number greater than 0.\n"
+                "    # Must be given.\n"
+                "    set Density =\n",
+                "# Default: clc-midpoint\n  set Scheme = clc-midpoint\n"});
+
+  // it has the form of a scene, and every entry of a scene stands in it
+  const ParameterFile printed = parse(out.str());
+  for (const ParameterEntry &entry : parse(read_scene<3>(parse(small_scene)).parameters).entries)
+    {
+      std::vector<std::string> section = entry.section;
+      if (section.size() == 2)
+        section[1] = "<name>";
+      const bool found =
+        std::any_of(printed.entries.begin(), printed.entries.end(), [&](const auto &other) {
+          return other.section == section && other.name == entry.name;
+        });
+      EXPECT_TRUE(found) << entry.name;
+    }
+}
