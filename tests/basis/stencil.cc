@@ -228,8 +228,8 @@ TYPED_TEST(BasisStencil, SnapsToGridLinesThatItHardlyPasses)
   for (int d = 0; d < dim; ++d)
     x[d] += 2.2 * lattice.h[d];
   const auto linear = linear_stencil(lattice, whole(lattice), x);
-  const auto less   = gimp_stencil(lattice, whole(lattice), x, (0.2 + 0.999e-3) * lattice.h);
-  const auto more   = gimp_stencil(lattice, whole(lattice), x, (0.2 + 1.001e-3) * lattice.h);
+  const auto less   = gimp_stencil(lattice, whole(lattice), x, (0.2 + 0.999 * gimp_smallest_overlap) * lattice.h);
+  const auto more   = gimp_stencil(lattice, whole(lattice), x, (0.2 + 1.001 * gimp_smallest_overlap) * lattice.h);
   EXPECT_EQ(less.pattern, 0u);
   EXPECT_EQ(more.pattern, (1u << dim) - 1);
   for (int d = 0; d < dim; ++d)
