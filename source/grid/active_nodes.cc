@@ -1,7 +1,5 @@
 #include <kedge/grid/active_nodes.h>
 
-#include <deal.II/base/mpi.templates.h>
-
 #include <numeric>
 
 namespace kedge

@@ -100,6 +100,7 @@ namespace kedge
   BackgroundGrid<dim>::tabulate_cells()
   {
     cell_iterators.assign(window_.n_cells_total(), triangulation_->end());
+    cell_owners.assign(window_.n_cells_total(), 0);
     for (const auto &cell : triangulation_->active_cell_iterators())
       if (!cell->is_artificial())
         {
@@ -108,7 +109,14 @@ namespace kedge
           for (int d = 0; d < dim; ++d)
             index[d] = static_cast<int>(std::floor(lattice_.scaled(center[d], d)));
           cell_iterators[window_.cell_number(index)] = cell;
+          cell_owners[window_.cell_number(index)]    = cell->subdomain_id();
         }
+    MPI_Allreduce(MPI_IN_PLACE,
+                  cell_owners.data(),
+                  static_cast<int>(cell_owners.size()),
+                  MPI_UNSIGNED,
+                  MPI_MAX,
+                  communicator_);
   }
 
 

@@ -1,34 +1,11 @@
 #include <kedge/points/material_points.h>
 
-#include <deal.II/base/mpi.templates.h>
-
 #include <cstring>
 
 namespace kedge
 {
   namespace
   {
-    /** Owner rank of every cell of the window (collective). */
-    template <int dim>
-    std::vector<unsigned int>
-    cell_owners(const BackgroundGrid<dim> &grid)
-    {
-      std::vector<unsigned int> owned;
-      const auto               &window = grid.window();
-      for (unsigned int c = 0; c < window.n_cells_total(); ++c)
-        {
-          const auto &cell = grid.cell_iterator(window.cell_index(c));
-          if (cell != grid.triangulation().end() && cell->is_locally_owned())
-            owned.push_back(c);
-        }
-      const auto all = dealii::Utilities::MPI::all_gather(grid.communicator(), owned);
-      std::vector<unsigned int> owners(window.n_cells_total(), 0);
-      for (unsigned int rank = 0; rank < all.size(); ++rank)
-        for (const unsigned int c : all[rank])
-          owners[c] = rank;
-      return owners;
-    }
-
     template <int dim>
     constexpr std::size_t record_values = sizeof(PointRecord<dim>) / sizeof(double);
 
@@ -37,14 +14,13 @@ namespace kedge
     std::vector<PointRecord<dim>>
     send_to_owners(const BackgroundGrid<dim> &grid, const std::vector<PointRecord<dim>> &records)
     {
-      const std::vector<unsigned int>             owners = cell_owners(grid);
       std::map<unsigned int, std::vector<double>> outgoing;
       for (const auto &record : records)
         {
           const auto cell = grid.lattice().cell_of(record.location);
           AssertThrow(grid.window().contains_cell(cell),
                       dealii::ExcMessage("A material point lies outside the grid's window."));
-          auto             &buffer = outgoing[owners[grid.window().cell_number(cell)]];
+          auto             &buffer = outgoing[grid.cell_owner(cell)];
           const std::size_t begin  = buffer.size();
           buffer.resize(begin + record_values<dim>);
           std::memcpy(&buffer[begin], &record, sizeof(record));
@@ -125,53 +101,31 @@ namespace kedge
 
 
   template <int dim>
-  bool
-  MaterialPoints<dim>::relocate_within_rank(const BackgroundGrid<dim> &grid)
-  {
-    using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
-    std::vector<std::pair<Iterator, typename BackgroundGrid<dim>::CellIterator>> movers;
-    for (auto particle = handler->begin(); particle != handler->end(); ++particle)
-      {
-        const auto &cell = grid.cell_iterator(grid.lattice().cell_of(particle->get_location()));
-        if (particle->get_surrounding_cell() != cell)
-          {
-            if (!cell->is_locally_owned())
-              return false;
-            movers.emplace_back(particle, cell);
-          }
-      }
-    if (movers.empty())
-      return true;
-
-    std::vector<PointRecord<dim>> copies;
-    std::vector<Iterator>         leaving;
-    for (const auto &[particle, cell] : movers)
-      {
-        (void)cell;
-        copies.push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
-        leaving.push_back(particle);
-      }
-    handler->remove_particles(leaving);
-    for (unsigned int i = 0; i < movers.size(); ++i)
-      insert(grid, copies[i]);
-    handler->update_cached_numbers();
-    return true;
-  }
-
-
-
-  template <int dim>
   std::uint64_t
   MaterialPoints<dim>::relocate(const BackgroundGrid<dim> &grid)
   {
-    bool within = relocate_within_rank(grid);
-    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-      within = !dealii::Utilities::MPI::logical_or(!within, grid.communicator());
-    if (!within)
+    using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
+    const unsigned int    rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+    std::vector<Iterator> movers;
+    std::vector<PointRecord<dim>> staying, leaving;
+    for (auto particle = handler->begin(); particle != handler->end(); ++particle)
       {
-        handler->sort_particles_into_subdomains_and_cells();
-        handler->update_cached_numbers();
+        const auto cell  = grid.lattice().cell_of(particle->get_location());
+        const bool stays = grid.cell_owner(cell) == rank;
+        if (stays && particle->get_surrounding_cell() == grid.cell_iterator(cell))
+          continue;
+        movers.push_back(particle);
+        (stays ? staying : leaving)
+          .push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
       }
+    if (!movers.empty())
+      handler->remove_particles(movers);
+    for (const auto &record : staying)
+      insert(grid, record);
+    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      for (const auto &record : send_to_owners(grid, leaving))
+        insert(grid, record);
+    handler->update_cached_numbers();
     return n_global_ - handler->n_global_particles();
   }
 

@@ -79,7 +79,6 @@ namespace kedge
     this->state = &state;
     this->t_n   = t_n;
     this->dt    = dt;
-    from_zero   = false;
     warning_.clear();
     diagonal.assign(equations.system().n_rows(), 0.);
     internal.resize(state.displacement.size());
@@ -245,20 +244,6 @@ namespace kedge
   {
     for (std::size_t i = 0; i < correction.size(); ++i)
       state->displacement[i] += factor * correction[i];
-  }
-
-
-
-  template <int dim>
-  bool
-  SolidProblem<dim>::restart_safely()
-  {
-    if (from_zero)
-      return false;
-    from_zero = true;
-    std::fill(state->displacement.begin(), state->displacement.end(), 0.);
-    set_prescribed_displacements();
-    return true;
   }
 
 

@@ -41,12 +41,6 @@ namespace kedge
 {
   namespace
   {
-    /**
-     * A pivot of the scaled matrix (unit diagonal) below this is taken for
-     * zero: the solution would have no correct digit.
-     */
-    constexpr double smallest_pivot = 1e-15;
-
     /** Band LU with partial pivoting, or band Cholesky, from LAPACK. */
     class BandedBackend : public GatheredBackend
     {
@@ -88,8 +82,11 @@ namespace kedge
                                                 : "singular matrix",
                                        info - 1);
         for (int i = 0; i < n; ++i)
-          if (std::abs(band[std::size_t(i) * leading + top]) < smallest_pivot)
-            return LinearStatus::failure("matrix singular to working precision", i);
+          {
+            const double diagonal = band[std::size_t(i) * leading + top];
+            if (std::abs(cholesky ? diagonal * diagonal : diagonal) < smallest_pivot)
+              return LinearStatus::failure("matrix singular to working precision", i);
+          }
         return {};
       }
 

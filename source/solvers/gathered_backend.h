@@ -20,6 +20,12 @@ namespace kedge
     solve(const std::vector<double> &b, std::vector<double> &x) final;
 
   protected:
+    /**
+     * A pivot of the scaled matrix (unit diagonal) below this is taken for
+     * zero: the solution would have no correct digit.
+     */
+    static constexpr double smallest_pivot = 1e-15;
+
     /** The gathered, scaled matrix; filled on rank 0 only. */
     struct Matrix
     {

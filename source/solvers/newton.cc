@@ -84,8 +84,6 @@ namespace kedge
   {
     NewtonReport              report;
     NewtonProblem::Evaluation evaluation = problem.evaluate();
-    while (!evaluation.ok && problem.restart_safely())
-      evaluation = problem.evaluate();
     if (!evaluation.ok)
       {
         report.cause = evaluation.cause + " before the first Newton iteration";

@@ -59,6 +59,8 @@ namespace kedge
         if (status != UMFPACK_OK)
           return LinearStatus::failure("UMFPACK could not factorise the matrix (status " +
                                        std::to_string(status) + ")");
+        if (info[UMFPACK_RCOND] < smallest_pivot)
+          return LinearStatus::failure("matrix singular to working precision", weakest_unknown());
         return {};
       }
 

@@ -1,7 +1,5 @@
 #include <kedge/transfer/equation_system.h>
 
-#include <deal.II/base/mpi.templates.h>
-
 namespace kedge
 {
   namespace

@@ -7,16 +7,24 @@ namespace kedge
     /** Cells searched for a root, as distance in cells from the node. */
     constexpr int nearest_ring = 2, farthest_ring = 4;
 
-    /** Volume of material at each node of the window, in cells (collective). */
+    /**
+     * Volume of material at each node of the window, in cells; more than zero at
+     * every node that any rank reaches (collective).
+     */
     template <int dim>
     std::vector<double>
-    nodal_filling(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points)
+    nodal_filling(const BackgroundGrid<dim>        &grid,
+                  const StepPoints<dim>            &points,
+                  const std::vector<unsigned char> &reached)
     {
       double cell_volume = 1.;
       for (int d = 0; d < dim; ++d)
         cell_volume *= grid.lattice().h[d];
       std::vector<double> filling(grid.window().n_nodes_total(), 0.);
-      const auto          strides = grid.window().node_strides();
+      for (unsigned int node = 0; node < reached.size(); ++node)
+        if (reached[node])
+          filling[node] = std::numeric_limits<double>::min();
+      const auto strides = grid.window().node_strides();
       for (unsigned int slot = 0; slot < points.size(); ++slot)
         {
           const Stencil<dim> &s      = points.stencil[slot];
@@ -141,9 +149,12 @@ namespace kedge
     window_ties.clear();
     if (threshold > 0.)
       {
-        const std::vector<double> filling = nodal_filling(grid, points);
+        const std::vector<double> filling = nodal_filling(grid, points, reached);
+        const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+        // the owner of a tied node must know it too, even if none of its points reach it
         for (unsigned int node = 0; node < reached.size(); ++node)
-          if (reached[node] && filling[node] < threshold)
+          if (filling[node] > 0. && filling[node] < threshold &&
+              (reached[node] || grid.node_owner(node) == rank))
             {
               Tie tie{node, {}, {}, 0};
               if (tie_to_nearest_cell(grid.window(), filling, threshold, tie))

@@ -6,34 +6,17 @@ namespace kedge
   {
     /**
      * Where points are too few to tell all nodal velocities apart the mass
-     * matrix is singular. Its diagonal is then raised by this part, and the
-     * solution is iterated back to the unchanged matrix: momentum and energy
-     * stay exact, the undetermined part stays small.
+     * matrix is singular, or nearly so. This part of the lumped mass is added
+     * to its diagonal, and the solution is iterated back to the unchanged
+     * matrix: momentum and energy stay exact, while what is undetermined
+     * stays small. It must be the lumped mass: at a node that hardly any mass
+     * reaches it is of the order m N, far above the diagonal's m N^2.
      */
-    constexpr double       diagonal_shift      = 1e-12;
-    constexpr unsigned int n_shift_corrections = 4;
+    constexpr double lumped_shift = 1e-13;
 
-    std::vector<double>
-    multiply(const SparseSystem &system, const std::vector<double> &x)
-    {
-      // direct methods only: rows of one rank see the whole vector when there is one rank
-      std::vector<double> all(system.n_global, 0.);
-      std::copy(x.begin(), x.end(), all.begin() + system.first_row);
-      int n_ranks;
-      MPI_Comm_size(system.communicator, &n_ranks);
-      if (n_ranks > 1)
-        MPI_Allreduce(MPI_IN_PLACE,
-                      all.data(),
-                      static_cast<int>(all.size()),
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      system.communicator);
-      std::vector<double> y(system.n_rows(), 0.);
-      for (unsigned int i = 0; i < y.size(); ++i)
-        for (std::int64_t k = system.row_start[i]; k < system.row_start[i + 1]; ++k)
-          y[i] += system.value[k] * all[system.column[k]];
-      return y;
-    }
+    /** Corrections end at this part of the solution's energy, or at this number. */
+    constexpr double       relative_tolerance = 1e-15;
+    constexpr unsigned int most_corrections   = 6;
   } // namespace
 
 
@@ -51,7 +34,7 @@ namespace kedge
       {
         components.clear();
         LinearSolverParameters parameters;
-        parameters.tolerance      = 1e-15;
+        parameters.tolerance      = 1e-10; // the corrections do the rest
         parameters.max_iterations = 2000;
         MatrixTraits traits;
         traits.space_dimension      = dim;
@@ -84,7 +67,10 @@ namespace kedge
           }
       }
     for (Component &component : components)
-      component.equations.fill(nodes, mass);
+      {
+        component.equations.fill(nodes, mass);
+        component.is_factorised = false;
+      }
   }
 
 
@@ -93,35 +79,68 @@ namespace kedge
   LinearStatus
   VelocityMapping<dim>::factorise(Component &component)
   {
-    component.is_shifted = false;
-    LinearStatus status  = component.solver->factorise(component.equations.system());
-    if (status.success)
-      return status;
-
-    component.is_shifted = true;
-    return component.solver->factorise(component.equations.system(), diagonal_shift);
+    if (component.is_factorised)
+      return {};
+    SparseSystem &raised = component.raised;
+    raised               = component.equations.system();
+    for (unsigned int i = 0; i < raised.n_rows(); ++i)
+      {
+        double lumped = 0.;
+        for (std::int64_t k = raised.row_start[i]; k < raised.row_start[i + 1]; ++k)
+          lumped += raised.value[k];
+        for (std::int64_t k = raised.row_start[i]; k < raised.row_start[i + 1]; ++k)
+          if (raised.column[k] == raised.first_row + i)
+            raised.value[k] += lumped_shift * lumped;
+      }
+    const LinearStatus status = component.solver->factorise(raised);
+    component.is_factorised   = status.success;
+    return status;
   }
 
 
 
   template <int dim>
   LinearStatus
-  VelocityMapping<dim>::solve_component(Component                 &component,
+  VelocityMapping<dim>::solve_component(const BackgroundGrid<dim> &grid,
+                                        const ActiveNodes<dim>    &nodes,
+                                        const NodeTies<dim>       &ties,
+                                        const NodeMatrix<dim>     &mass,
+                                        const int                  direction,
+                                        Component                 &component,
                                         const std::vector<double> &right_side,
                                         std::vector<double>       &solution)
   {
-    LinearStatus status = component.solver->solve(right_side, solution);
-    if (component.is_shifted)
-      for (unsigned int k = 0; status.success && k < n_shift_corrections; ++k)
-        {
-          std::vector<double> defect = multiply(component.equations.system(), solution);
-          for (unsigned int i = 0; i < defect.size(); ++i)
-            defect[i] = right_side[i] - defect[i];
-          std::vector<double> correction;
-          status = component.solver->solve(defect, correction);
-          for (unsigned int i = 0; i < defect.size(); ++i)
-            solution[i] += correction[i];
-        }
+    LinearStatus        status = component.solver->solve(right_side, solution);
+    std::vector<double> nodal(std::size_t(nodes.n_local()) * dim, 0.), product(nodal.size());
+    std::vector<double> defect(right_side.size()), correction;
+    const auto          index = [&](const unsigned int equation) {
+      return std::size_t(component.equations.nodal_index(equation)) * dim + direction;
+    };
+    for (unsigned int k = 0; status.success && k < most_corrections; ++k)
+      {
+        // C^T M~ C, as the equations have it
+        for (unsigned int e = 0; e < solution.size(); ++e)
+          nodal[index(e)] = solution[e];
+        nodes.update_ghosts(nodal, dim);
+        ties.prolong(nodal);
+        multiply(mass, grid.window(), nodes, dim, nodal, product);
+        ties.restrict_sums(product);
+        nodes.add_to_owners(product, dim);
+        for (unsigned int e = 0; e < defect.size(); ++e)
+          defect[e] = right_side[e] - product[index(e)];
+        status = component.solver->solve(defect, correction);
+
+        double energies[2] = {0., 0.}; // of the correction and of the whole
+        for (unsigned int e = 0; e < defect.size(); ++e)
+          {
+            solution[e] += correction[e];
+            energies[0] += correction[e] * defect[e];
+            energies[1] += solution[e] * right_side[e];
+          }
+        MPI_Allreduce(MPI_IN_PLACE, energies, 2, MPI_DOUBLE, MPI_SUM, nodes.communicator());
+        if (!(std::abs(energies[0]) > relative_tolerance * std::abs(energies[1])))
+          break;
+      }
     return status;
   }
 
@@ -171,7 +190,7 @@ namespace kedge
                   const std::size_t i = std::size_t(component.equations.nodal_index(e)) * dim + d;
                   right_side[e]       = momentum[i] - of_known[i];
                 }
-              status = solve_component(component, right_side, solution);
+              status = solve_component(grid, nodes, ties, mass, d, component, right_side, solution);
               for (unsigned int e = 0; e < right_side.size(); ++e)
                 nodal[std::size_t(component.equations.nodal_index(e)) * dim + d] = solution[e];
             }

@@ -91,6 +91,13 @@ namespace kedge
       return communicator_;
     }
 
+    /** Rank that owns a cell of the window. */
+    unsigned int
+    cell_owner(const LatticeIndex<dim> &cell) const
+    {
+      return cell_owners[window_.cell_number(cell)];
+    }
+
     /** Rank that owns a node of the window. */
     unsigned int
     node_owner(const unsigned int window_node) const
@@ -122,6 +129,7 @@ namespace kedge
     unsigned int                                                       generation_   = 0;
     dealii::FESystem<dim>                                              element;
     std::vector<CellIterator>                                          cell_iterators;
+    std::vector<unsigned int>                                          cell_owners;
     std::vector<unsigned int>                                          node_owners;
     std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> triangulation_;
     std::unique_ptr<dealii::DoFHandler<dim>>                           dof_handler_;

@@ -103,9 +103,6 @@ namespace kedge
     void
     insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
 
-    bool
-    relocate_within_rank(const BackgroundGrid<dim> &grid);
-
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
     std::uint64_t                                            n_global_ = 0;
   };

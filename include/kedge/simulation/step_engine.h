@@ -150,8 +150,6 @@ namespace kedge
     particle_to_grid(const double t, const double dt);
     void
     apply_external_forces(const double t);
-    void
-    predict(const double dt);
     std::string
     check_points();
     void

@@ -66,9 +66,6 @@ namespace kedge
     void
     apply_correction(const double factor) override;
 
-    bool
-    restart_safely() override;
-
     /** Work of the supports that move in this step, after convergence [J] (collective). */
     double
     reaction_work() const;
@@ -124,7 +121,6 @@ namespace kedge
     NodalState                *state      = nullptr;
     double                     t_n        = 0.;
     double                     dt         = 0.;
-    bool                       from_zero  = false;
 
     NodeMatrix<dim>            stiffness;
     EquationSystem<dim>        equations;

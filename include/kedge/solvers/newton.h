@@ -50,10 +50,6 @@ namespace kedge
     /** u += factor * correction. */
     virtual void
     apply_correction(const double factor) = 0;
-
-    /** Goes to a safer starting point than the predictor; false if there is none left. */
-    virtual bool
-    restart_safely() = 0;
   };
 
   /**

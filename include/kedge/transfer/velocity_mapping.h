@@ -52,13 +52,19 @@ namespace kedge
       std::vector<NodalStatus>      status;
       EquationSystem<dim>           equations;
       std::unique_ptr<LinearSolver> solver;
-      bool                          is_shifted = false; ///< see LinearSolver::factorise()
+      SparseSystem                  raised; ///< with a slightly larger diagonal
+      bool                          is_factorised = false;
     };
 
     LinearStatus
     factorise(Component &component);
     LinearStatus
-    solve_component(Component                 &component,
+    solve_component(const BackgroundGrid<dim> &grid,
+                    const ActiveNodes<dim>    &nodes,
+                    const NodeTies<dim>       &ties,
+                    const NodeMatrix<dim>     &mass,
+                    const int                  direction,
+                    Component                 &component,
                     const std::vector<double> &right_side,
                     std::vector<double>       &solution);
 

@@ -1,0 +1,216 @@
+#include "../transfer/cloud.h"
+
+#include <kedge/solid/internal_force.h>
+
+#include <gtest/gtest.h>
+
+using namespace kedge;
+using namespace kedge::test;
+
+namespace
+{
+  template <typename Dimension>
+  class SolidInternalForce : public testing::Test
+  {};
+  using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+
+  /** Linear, GIMP, and both at once in two bodies. */
+  const std::vector<std::vector<BasisKind>> all_bases = {{BasisKind::linear},
+                                                         {BasisKind::gimp},
+                                                         {BasisKind::gimp, BasisKind::linear}};
+
+  template <int dim>
+  InternalForce<dim>
+  make_force(const StressRule rule, const double alpha)
+  {
+    return InternalForce<dim>({Material(Cloud<dim>::material(0)),
+                               Material(Cloud<dim>::material(1))},
+                              rule,
+                              alpha);
+  }
+
+  template <int dim>
+  std::vector<double>
+  force_at(const Cloud<dim>          &cloud,
+           const InternalForce<dim>  &internal,
+           const std::vector<double> &u)
+  {
+    std::vector<double> force(u.size(), 0.);
+    EXPECT_TRUE(internal.add_force(cloud.step, cloud.window(), cloud.nodes, u, force).ok());
+    return force;
+  }
+
+  /** Energy stored in the step to u: sum of V0 dPsi, point by point. */
+  template <int dim>
+  double
+  stored(const Cloud<dim> &cloud, const InternalForce<dim> &internal, const std::vector<double> &u)
+  {
+    std::vector<dealii::Tensor<2, dim>> gradients;
+    gradients_at_points(cloud.step, cloud.window(), cloud.nodes, u, gradients);
+    double sum = 0.;
+    for (const auto &batch : cloud.step.batches)
+      for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+        {
+          double A[dim][dim];
+          gradients[slot].unroll(&A[0][0], &A[0][0] + dim * dim);
+          sum += cloud.step.volume[slot] *
+                 evaluate_force_stress<dim, false, StressRule::at_configuration>(
+                   std::get<Hencky>(internal.material_of_body(batch.body)),
+                   cloud.step.stress_state[slot],
+                   A,
+                   1.)
+                   .work_increment;
+        }
+    return sum;
+  }
+
+  double
+  norm(const std::vector<double> &x)
+  {
+    double sum = 0.;
+    for (const double entry : x)
+      sum += entry * entry;
+    return std::sqrt(sum);
+  }
+
+  /** Calls check(cloud) for all bases. */
+  template <int dim, typename Check>
+  void
+  for_all_bases(const Check &check)
+  {
+    for (unsigned int b = 0; b < all_bases.size(); ++b)
+      {
+        SCOPED_TRACE("basis " + std::to_string(b));
+        const Cloud<dim> cloud(all_bases[b], 2, 31 + b);
+        check(cloud);
+      }
+  }
+
+  /** Column by column: dforce/du_j by central differences against the matrix. */
+  template <int dim>
+  void
+  check_stiffness(const Cloud<dim> &cloud, const InternalForce<dim> &internal)
+  {
+    const std::vector<double> u = cloud.random_nodal(0.03, 1);
+    NodeMatrix<dim>           stiffness;
+    stiffness.reinit(cloud.nodes.n_local(), dim, 2);
+    stiffness.set_zero();
+    internal.add_stiffness(cloud.step, cloud.window(), cloud.nodes, u, stiffness);
+
+    const std::vector<int> strides = stiffness.slot_strides(cloud.window());
+    const double           h       = 1e-5;
+    double                 largest = 0., largest_error = 0.;
+    for (unsigned int j = 0; j < u.size(); ++j)
+      {
+        std::vector<double> plus = u, minus = u, column(u.size(), 0.);
+        plus[j] += h;
+        minus[j] -= h;
+        const auto f_plus  = force_at(cloud, internal, plus),
+                   f_minus = force_at(cloud, internal, minus);
+        for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
+          for (int p = 0; p < dim; ++p)
+            for (unsigned int s = 0; s < stiffness.n_slots(); ++s)
+              {
+                const int other = static_cast<int>(cloud.nodes.window_node(i)) + strides[s];
+                if (other == static_cast<int>(cloud.nodes.window_node(j / dim)))
+                  column[i * dim + p] = stiffness.row(i, p)[s * dim + j % dim];
+              }
+        for (unsigned int i = 0; i < u.size(); ++i)
+          {
+            largest = std::max(largest, std::abs(column[i]));
+            largest_error =
+              std::max(largest_error, std::abs(column[i] - (f_plus[i] - f_minus[i]) / (2. * h)));
+          }
+      }
+    // differences: round-off 1e-16/h and curvature h^2 of O(1) stresses both give 1e-10
+    EXPECT_GT(largest, 1e-3);
+    EXPECT_LT(largest_error, 1e-8 * largest);
+  }
+} // namespace
+
+TYPED_TEST_SUITE(SolidInternalForce, Dimensions);
+
+TYPED_TEST(SolidInternalForce, IsTheSlopeOfTheStoredEnergy)
+{
+  constexpr int dim = TypeParam::value;
+  for_all_bases<dim>([](const Cloud<dim> &cloud) {
+    const auto                internal = make_force<dim>(StressRule::at_configuration, 1.);
+    const std::vector<double> u        = cloud.random_nodal(0.03, 1);
+    const std::vector<double> force    = force_at(cloud, internal, u);
+    const double              h        = 1e-5;
+    for (unsigned int j = 0; j < u.size(); ++j)
+      {
+        std::vector<double> plus = u, minus = u;
+        plus[j] += h;
+        minus[j] -= h;
+        // forces are of the order 1e-2; energies of 0.1 with round-off 1e-17 over 2h
+        EXPECT_NEAR(force[j],
+                    (stored(cloud, internal, plus) - stored(cloud, internal, minus)) / (2. * h),
+                    1e-10);
+      }
+    EXPECT_GT(norm(force), 0.05);
+  });
+}
+
+TYPED_TEST(SolidInternalForce, StiffnessIsTheForcesSlope)
+{
+  constexpr int dim = TypeParam::value;
+  for_all_bases<dim>([](const Cloud<dim> &cloud) {
+    check_stiffness(cloud, make_force<dim>(StressRule::at_configuration, 1.));
+    check_stiffness(cloud, make_force<dim>(StressRule::at_configuration, 0.55));
+    check_stiffness(cloud, make_force<dim>(StressRule::conserving, 0.5));
+  });
+}
+
+TYPED_TEST(SolidInternalForce, ConservingForceWorksWhatIsStoredAndTurnsNothing)
+{
+  constexpr int dim = TypeParam::value;
+  for_all_bases<dim>([](const Cloud<dim> &cloud) {
+    const auto internal = make_force<dim>(StressRule::conserving, 0.5);
+    for (const double size : {3e-2, 1e-5, 1e-10})
+      {
+        const std::vector<double> u     = cloud.random_nodal(size, 2);
+        const std::vector<double> force = force_at(cloud, internal, u);
+        const double              scale = norm(force);
+        double                    work = 0., sum[dim] = {}, moment[dim][dim] = {};
+        for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
+          {
+            const auto x = cloud.node_position(i);
+            for (int d = 0; d < dim; ++d)
+              {
+                work += force[i * dim + d] * u[i * dim + d];
+                sum[d] += force[i * dim + d];
+                for (int e = 0; e < dim; ++e)
+                  moment[d][e] += (x[d] + 0.5 * u[i * dim + d]) * force[i * dim + e] -
+                                  (x[e] + 0.5 * u[i * dim + e]) * force[i * dim + d];
+              }
+          }
+        // round-off of some hundred terms of size 1e-16 |f|; lever arms are below 5 m
+        EXPECT_NEAR(work, stored(cloud, internal, u), 1e-14 * scale * size);
+        for (int d = 0; d < dim; ++d)
+          {
+            EXPECT_NEAR(sum[d], 0., 1e-14 * scale);
+            for (int e = 0; e < dim; ++e)
+              EXPECT_NEAR(moment[d][e], 0., 1e-13 * scale);
+          }
+      }
+  });
+}
+
+TYPED_TEST(SolidInternalForce, NamesThePointThatTurnsInsideOut)
+{
+  constexpr int    dim = TypeParam::value;
+  const Cloud<dim> cloud({BasisKind::linear}, 1, 3);
+  const auto       internal = make_force<dim>(StressRule::conserving, 0.5);
+  // u_x = -1.5 x at the nodes of one cell's point: det(I + A) = -0.5 there
+  const unsigned int  slot = cloud.step.size() / 2;
+  std::vector<double> u(cloud.nodes.n_local() * dim, 0.), force = u;
+  for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
+    if (std::abs(cloud.node_position(i)[0] - cloud.step.location[slot][0]) < 0.7)
+      u[i * dim] = -1.5 * cloud.node_position(i)[0];
+  const auto status = internal.add_force(cloud.step, cloud.window(), cloud.nodes, u, force);
+  ASSERT_FALSE(status.ok());
+  std::vector<dealii::Tensor<2, dim>> gradients;
+  gradients_at_points(cloud.step, cloud.window(), cloud.nodes, u, gradients);
+  EXPECT_LE(determinant(dealii::unit_symmetric_tensor<dim>() + gradients[status.failed_slot]), 0.);
+}

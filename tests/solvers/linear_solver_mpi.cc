@@ -1,0 +1,262 @@
+// Every method of the linear solver on systems with a known solution, on one
+// rank and on two.
+#include <kedge/solvers/linear_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+using namespace kedge;
+
+namespace
+{
+  using Kind = LinearSolverKind;
+
+  const std::vector<Kind> all_kinds = {Kind::automatic,
+                                       Kind::banded,
+                                       Kind::direct,
+                                       Kind::krylov_ilu,
+                                       Kind::krylov_amg};
+
+  constexpr int width = 7, height = 9, n = width * height;
+
+  double
+  random_scale(const int i)
+  {
+    std::mt19937 generator(i);
+    return std::pow(10., std::uniform_real_distribution<double>(-4, 4)(generator));
+  }
+
+  /** Five-point Laplacian plus convection, rows and columns scaled over eight decades. */
+  double
+  entry(const int i, const int j, const double convection)
+  {
+    const int  dx = j % width - i % width, dy = j / width - i / width;
+    const bool neighbours = std::abs(dx) + std::abs(dy) == 1;
+    if (i != j && !neighbours)
+      return 0.;
+    const double value = i == j ? 4. : -1. + convection * (dx + 0.5 * dy);
+    return value * random_scale(i) * random_scale(j);
+  }
+
+  /** The first rank has a third of the rows. */
+  SparseSystem
+  make_system(const std::function<double(int, int)> &entry_of)
+  {
+    const int    rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const int    n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    const int    third   = n_ranks == 1 ? n : n / 3;
+    const int    begin = rank == 0 ? 0 : third, end = rank == 0 ? third : (rank == 1 ? n : third);
+    SparseSystem system;
+    system.communicator = MPI_COMM_WORLD;
+    system.n_global     = n;
+    system.first_row    = begin;
+    for (int i = begin; i < end; ++i)
+      {
+        for (int j = 0; j < n; ++j)
+          if (std::abs(entry_of(i, j)) > 0. || i == j)
+            {
+              system.column.push_back(j);
+              system.value.push_back(entry_of(i, j));
+            }
+        system.row_start.push_back(system.column.size());
+      }
+    return system;
+  }
+
+  /** The solution; unscaled unknowns are of order 1. */
+  double
+  solution(const int i)
+  {
+    return std::sin(1. + i) / random_scale(i);
+  }
+
+  LinearSolver
+  make_solver(const Kind kind, const bool positive_definite)
+  {
+    LinearSolverParameters parameters;
+    parameters.kind      = kind;
+    parameters.tolerance = 1e-12;
+    MatrixTraits traits;
+    traits.positive_definite = positive_definite;
+    return LinearSolver(parameters, traits);
+  }
+
+  void
+  check_solve(LinearSolver &solver, const SparseSystem &system)
+  {
+    std::vector<double> b, x;
+    for (unsigned int i = 0; i < system.n_rows(); ++i)
+      {
+        b.push_back(0.);
+        for (std::int64_t k = system.row_start[i]; k < system.row_start[i + 1]; ++k)
+          b[i] += system.value[k] * solution(system.column[k]);
+      }
+    const auto status = solver.solve(b, x);
+    EXPECT_TRUE(status.success) << status.cause;
+    ASSERT_EQ(x.size(), b.size());
+    for (unsigned int i = 0; i < x.size(); ++i)
+      {
+        const int row = static_cast<int>(system.first_row) + i;
+        // condition about 50, Krylov residual 1e-12
+        EXPECT_NEAR(x[i] * random_scale(row), solution(row) * random_scale(row), 1e-10);
+      }
+  }
+
+  std::string
+  name(const Kind kind)
+  {
+    return "method " + std::to_string(static_cast<int>(kind));
+  }
+} // namespace
+
+TEST(SolversLinearMpi, SymmetricSystemsByAllMethods)
+{
+  const auto system = make_system([](const int i, const int j) {
+    return entry(i, j, 0.);
+  });
+  for (const Kind kind : all_kinds)
+    for (const bool positive_definite : {true, false})
+      {
+        SCOPED_TRACE(name(kind) + (positive_definite ? " positive definite" : " general"));
+        LinearSolver solver = make_solver(kind, positive_definite);
+        const auto   status = solver.factorise(system);
+        ASSERT_TRUE(status.success) << status.cause;
+        check_solve(solver, system);
+        check_solve(solver, system); // the factor stays
+      }
+}
+
+TEST(SolversLinearMpi, UnsymmetricSystemsAndNewValues)
+{
+  for (const Kind kind : all_kinds)
+    {
+      SCOPED_TRACE(name(kind));
+      LinearSolver solver = make_solver(kind, false);
+      for (const double convection : {0.4, -0.3})
+        {
+          const auto system = make_system([&](const int i, const int j) {
+            return entry(i, j, convection);
+          });
+          ASSERT_TRUE(solver.factorise(system).success);
+          check_solve(solver, system);
+        }
+      // another pattern: a coupling of far nodes
+      const auto other = make_system([](const int i, const int j) {
+        return entry(i, j, 0.1) +
+               (i == 2 && j == 40 ? 0.3 * random_scale(2) * random_scale(40) : 0.);
+      });
+      solver.pattern_changed();
+      ASSERT_TRUE(solver.factorise(other).success);
+      check_solve(solver, other);
+    }
+}
+
+TEST(SolversLinearMpi, NamesTheMethodInUse)
+{
+  const auto                     system = make_system([](const int i, const int j) {
+    return entry(i, j, 0.);
+  });
+  const std::vector<std::string> names = {"banded", "banded", "direct", "krylov-ilu", "krylov-amg"};
+  for (unsigned int k = 0; k < all_kinds.size(); ++k)
+    {
+      LinearSolver solver = make_solver(all_kinds[k], true);
+      solver.factorise(system);
+      // automatic takes the band solver for a system as small as this
+      EXPECT_EQ(solver.method(), names[k]);
+    }
+}
+
+TEST(SolversLinearMpi, SaysWhichEquationIsSingular)
+{
+  constexpr int hole = 30; // of the second of two ranks
+  // nothing at all in row and column 30
+  const auto empty = make_system([](const int i, const int j) {
+    return i == hole || j == hole ? 0. : entry(i, j, 0.1);
+  });
+  // rows 30 to 32 float freely: a chain with irregular springs and no support,
+  // so that elimination leaves a pivot of round-off, not of zero
+  const auto floating = make_system([](const int i, const int j) {
+    const bool in_i = i >= hole && i < hole + 3, in_j = j >= hole && j < hole + 3;
+    if (!in_i && !in_j)
+      return entry(i, j, 0.1);
+    if (!in_i || !in_j)
+      return 0.;
+    const double spring[4] = {0., 0.1, 0.7 / 3., 0.};
+    const int    k         = i - hole;
+    if (i == j)
+      return spring[k] + spring[k + 1];
+    return std::abs(i - j) == 1 ? -spring[std::max(i, j) - hole] : 0.;
+  });
+  for (const Kind kind : {Kind::automatic, Kind::banded, Kind::direct})
+    {
+      SCOPED_TRACE(name(kind));
+      LinearSolver solver = make_solver(kind, false);
+      const auto   status = solver.factorise(empty);
+      EXPECT_FALSE(status.success);
+      EXPECT_EQ(status.equation, hole);
+      EXPECT_NE(status.cause.find("singular"), std::string::npos) << status.cause;
+
+      LinearSolver other   = make_solver(kind, false);
+      const auto   floated = other.factorise(floating);
+      EXPECT_FALSE(floated.success);
+      EXPECT_GE(floated.equation, hole);
+      EXPECT_LT(floated.equation, hole + 3);
+    }
+  for (const bool positive_definite : {true, false})
+    {
+      // Cholesky must not take the square root of round-off for a pivot
+      LinearSolver solver = make_solver(Kind::banded, positive_definite);
+      EXPECT_FALSE(solver
+                     .factorise(make_system([](const int i, const int j) {
+                       const bool in_i = i < 3, in_j = j < 3;
+                       if (in_i != in_j)
+                         return 0.;
+                       const double v[3] = {0.1, 0.3, 0.7};
+                       // a rank-one block: v v^T
+                       return in_i ? v[i] * v[j] : (i == j ? 1. : 0.);
+                     }))
+                     .success);
+    }
+}
+
+TEST(SolversLinearMpi, KrylovMethodsOwnUpToFailure)
+{
+  const auto             system = make_system([](const int i, const int j) {
+    return entry(i, j, 0.);
+  });
+  const unsigned int     n_rows = system.n_rows();
+  LinearSolverParameters parameters;
+  parameters.kind           = Kind::krylov_ilu;
+  parameters.tolerance      = 1e-12;
+  parameters.max_iterations = 2; // too few for 63 unknowns
+  LinearSolver solver(parameters, MatrixTraits{});
+  ASSERT_TRUE(solver.factorise(system).success);
+  std::vector<double> x;
+  const auto          status = solver.solve(std::vector<double>(n_rows, 1.), x);
+  EXPECT_FALSE(status.success);
+  EXPECT_FALSE(status.cause.empty());
+  // a right-hand side of zero needs no iteration
+  const auto zero = solver.solve(std::vector<double>(n_rows, 0.), x);
+  EXPECT_TRUE(zero.success);
+  for (const double value : x)
+    EXPECT_EQ(value, 0.);
+}
+
+TEST(SolversLinearMpi, SystemsWithoutEquations)
+{
+  SparseSystem nothing;
+  nothing.communicator = MPI_COMM_WORLD;
+  for (const Kind kind : {Kind::automatic, Kind::banded, Kind::direct})
+    {
+      LinearSolver        solver = make_solver(kind, false);
+      std::vector<double> x      = {1.};
+      EXPECT_TRUE(solver.factorise(nothing).success);
+      EXPECT_TRUE(solver.solve({}, x).success);
+      EXPECT_TRUE(x.empty());
+    }
+}
