@@ -16,7 +16,7 @@ namespace kedge
 
     /** Corrections end at this part of the solution's energy, or at this number. */
     constexpr double       relative_tolerance = 1e-15;
-    constexpr unsigned int most_corrections   = 6;
+    constexpr unsigned int most_corrections   = 7;
   } // namespace
 
 
@@ -87,7 +87,7 @@ namespace kedge
       {
         double lumped = 0.;
         for (std::int64_t k = raised.row_start[i]; k < raised.row_start[i + 1]; ++k)
-          lumped += raised.value[k];
+          lumped += std::abs(raised.value[k]);
         for (std::int64_t k = raised.row_start[i]; k < raised.row_start[i + 1]; ++k)
           if (raised.column[k] == raised.first_row + i)
             raised.value[k] += lumped_shift * lumped;
@@ -101,47 +101,29 @@ namespace kedge
 
   template <int dim>
   LinearStatus
-  VelocityMapping<dim>::solve_component(const BackgroundGrid<dim> &grid,
-                                        const ActiveNodes<dim>    &nodes,
-                                        const NodeTies<dim>       &ties,
-                                        const NodeMatrix<dim>     &mass,
-                                        const int                  direction,
-                                        Component                 &component,
-                                        const std::vector<double> &right_side,
-                                        std::vector<double>       &solution)
+  VelocityMapping<dim>::correct(const std::vector<double> &defect,
+                                std::vector<double>       &nodal,
+                                double                    &energy)
   {
-    LinearStatus        status = component.solver->solve(right_side, solution);
-    std::vector<double> nodal(std::size_t(nodes.n_local()) * dim, 0.), product(nodal.size());
-    std::vector<double> defect(right_side.size()), correction;
-    const auto          index = [&](const unsigned int equation) {
-      return std::size_t(component.equations.nodal_index(equation)) * dim + direction;
-    };
-    for (unsigned int k = 0; status.success && k < most_corrections; ++k)
+    energy = 0.;
+    std::vector<double> right_side, correction;
+    for (int d = 0; d < dim; ++d)
       {
-        // C^T M~ C, as the equations have it
-        for (unsigned int e = 0; e < solution.size(); ++e)
-          nodal[index(e)] = solution[e];
-        nodes.update_ghosts(nodal, dim);
-        ties.prolong(nodal);
-        multiply(mass, grid.window(), nodes, dim, nodal, product);
-        ties.restrict_sums(product);
-        nodes.add_to_owners(product, dim);
-        for (unsigned int e = 0; e < defect.size(); ++e)
-          defect[e] = right_side[e] - product[index(e)];
-        status = component.solver->solve(defect, correction);
-
-        double energies[2] = {0., 0.}; // of the correction and of the whole
-        for (unsigned int e = 0; e < defect.size(); ++e)
+        Component  &component = components[component_of_direction[d]];
+        const auto &equations = component.equations;
+        right_side.resize(equations.system().n_rows());
+        for (unsigned int e = 0; e < right_side.size(); ++e)
+          right_side[e] = defect[std::size_t(equations.nodal_index(e)) * dim + d];
+        const LinearStatus status = component.solver->solve(right_side, correction);
+        if (!status.success)
+          return status;
+        for (unsigned int e = 0; e < right_side.size(); ++e)
           {
-            solution[e] += correction[e];
-            energies[0] += correction[e] * defect[e];
-            energies[1] += solution[e] * right_side[e];
+            nodal[std::size_t(equations.nodal_index(e)) * dim + d] += correction[e];
+            energy += correction[e] * right_side[e];
           }
-        MPI_Allreduce(MPI_IN_PLACE, energies, 2, MPI_DOUBLE, MPI_SUM, nodes.communicator());
-        if (!(std::abs(energies[0]) > relative_tolerance * std::abs(energies[1])))
-          break;
       }
-    return status;
+    return {};
   }
 
 
@@ -155,47 +137,43 @@ namespace kedge
                               const std::vector<double> &momentum,
                               std::vector<double>       &nodal)
   {
-    // the prescribed values go to the right-hand side
-    std::vector<double> known(nodal.size(), 0.);
-    bool                any_known = false;
+    for (Component &component : components)
+      {
+        const LinearStatus status = factorise(component);
+        if (!status.success)
+          return status;
+      }
+    // start from zero where nothing is prescribed
     for (int d = 0; d < dim; ++d)
       {
         const auto &status = components[component_of_direction[d]].status;
         for (unsigned int i = 0; i < nodes.n_local(); ++i)
-          if (status[i] == NodalStatus::prescribed && nodal[std::size_t(i) * dim + d] != 0.)
-            {
-              known[std::size_t(i) * dim + d] = nodal[std::size_t(i) * dim + d];
-              any_known                       = true;
-            }
-      }
-    std::vector<double> of_known(nodal.size(), 0.);
-    if (dealii::Utilities::MPI::logical_or(any_known, nodes.communicator()))
-      {
-        ties.prolong(known);
-        multiply(mass, grid.window(), nodes, dim, known, of_known);
-        ties.restrict_sums(of_known);
-        nodes.add_to_owners(of_known, dim);
+          if (status[i] != NodalStatus::prescribed)
+            nodal[std::size_t(i) * dim + d] = 0.;
       }
 
-    for (unsigned int c = 0; c < components.size(); ++c)
+    double              whole = 0.;
+    std::vector<double> defect(nodal.size());
+    for (unsigned int k = 0; k < most_corrections; ++k)
       {
-        Component   &component = components[c];
-        LinearStatus status    = factorise(component);
-        for (int d = 0; d < dim && status.success; ++d)
-          if (component_of_direction[d] == c)
-            {
-              std::vector<double> right_side(component.equations.system().n_rows()), solution;
-              for (unsigned int e = 0; e < right_side.size(); ++e)
-                {
-                  const std::size_t i = std::size_t(component.equations.nodal_index(e)) * dim + d;
-                  right_side[e]       = momentum[i] - of_known[i];
-                }
-              status = solve_component(grid, nodes, ties, mass, d, component, right_side, solution);
-              for (unsigned int e = 0; e < right_side.size(); ++e)
-                nodal[std::size_t(component.equations.nodal_index(e)) * dim + d] = solution[e];
-            }
+        // momentum - C^T M~ C nodal
+        nodes.update_ghosts(nodal, dim);
+        ties.prolong(nodal);
+        multiply(mass, grid.window(), nodes, dim, nodal, defect);
+        ties.restrict_sums(defect);
+        nodes.add_to_owners(defect, dim);
+        for (std::size_t i = 0; i < defect.size(); ++i)
+          defect[i] = momentum[i] - defect[i];
+
+        double             energy = 0.;
+        const LinearStatus status = correct(defect, nodal, energy);
         if (!status.success)
           return status;
+        energy = dealii::Utilities::MPI::sum(energy, nodes.communicator());
+        if (k == 0)
+          whole = energy;
+        if (whole == 0. || (k > 0 && !(energy > relative_tolerance * whole)))
+          break;
       }
     nodes.update_ghosts(nodal, dim);
     ties.prolong(nodal);

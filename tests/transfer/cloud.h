@@ -6,6 +6,7 @@
 
 #include <kedge/grid/active_nodes.h>
 #include <kedge/transfer/node_sums.h>
+#include <kedge/transfer/node_ties.h>
 
 namespace kedge::test
 {
@@ -38,14 +39,28 @@ namespace kedge::test
     Cloud(const std::vector<BasisKind> &basis_of_body,
           const unsigned int            points_per_direction,
           const unsigned int            seed,
-          const int                     block_width = 2)
+          const int                     block_width = 2,
+          const double                  threshold   = 0.)
       : grid(some_grid<dim>(box()), MPI_COMM_WORLD)
+      , conditions({}, {})
     {
       make_records(basis_of_body.size(), points_per_direction, seed, block_width);
       const bool first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
       points.distribute(grid, first_rank ? records : std::vector<PointRecord<dim>>());
       step.reinit(grid, points, basis_of_body);
-      nodes.reinit(grid, step.reached_nodes(grid.window()));
+      auto reached = step.reached_nodes(grid.window());
+      ties.find(grid, step, threshold, reached);
+      nodes.reinit(grid, reached);
+      prescribe(conditions);
+    }
+
+    /** Takes other node conditions. */
+    void
+    prescribe(const NodeConditions<dim> &new_conditions)
+    {
+      conditions = new_conditions;
+      conditions.reinit(grid, nodes);
+      ties.localise(nodes, conditions);
     }
 
     const LatticeWindow<dim> &
@@ -91,6 +106,8 @@ namespace kedge::test
     MaterialPoints<dim>           points;
     StepPoints<dim>               step;
     ActiveNodes<dim>              nodes;
+    NodeConditions<dim>           conditions;
+    NodeTies<dim>                 ties; ///< of nodes with less than the threshold, in cells
 
   private:
     static std::array<unsigned int, dim>

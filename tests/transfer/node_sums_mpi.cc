@@ -168,12 +168,13 @@ TYPED_TEST(TransferMpi, EquationsAreTheDenseMatrixOfTheFreeNodes)
 {
   constexpr int dim = TypeParam::value;
   for_all_bases<dim>([](const Cloud<dim> &cloud, const DenseCloud<dim> &dense) {
-    NodeMatrix<dim>            mass = effective_mass(cloud, 0.4);
-    std::vector<unsigned char> is_free(cloud.nodes.n_local());
-    for (unsigned int i = 0; i < is_free.size(); ++i)
-      is_free[i] = cloud.nodes.window_node(i) % 5 != 0;
+    NodeMatrix<dim>          mass = effective_mass(cloud, 0.4);
+    std::vector<NodalStatus> status(cloud.nodes.n_local(), NodalStatus::free);
+    for (unsigned int i = 0; i < status.size(); ++i)
+      if (cloud.nodes.window_node(i) % 5 == 0)
+        status[i] = NodalStatus::prescribed;
     EquationSystem<dim> equations;
-    equations.reinit(cloud.grid, cloud.nodes, is_free, mass);
+    equations.reinit(cloud.grid, cloud.nodes, cloud.ties, status, mass);
     equations.fill(cloud.nodes, mass);
 
     // window numbers of all equations, rank after rank
@@ -203,7 +204,7 @@ TYPED_TEST(TransferMpi, EquationsAreTheDenseMatrixOfTheFreeNodes)
     equations.gather(nodal, packed);
     equations.scatter(packed, unpacked);
     for (unsigned int i = 0; i < cloud.nodes.n_owned(); ++i)
-      EXPECT_EQ(unpacked[i], is_free[i] ? nodal[i] : 0.);
+      EXPECT_EQ(unpacked[i], status[i] == NodalStatus::free ? nodal[i] : 0.);
   });
 }
 

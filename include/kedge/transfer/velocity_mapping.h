@@ -59,14 +59,7 @@ namespace kedge
     LinearStatus
     factorise(Component &component);
     LinearStatus
-    solve_component(const BackgroundGrid<dim> &grid,
-                    const ActiveNodes<dim>    &nodes,
-                    const NodeTies<dim>       &ties,
-                    const NodeMatrix<dim>     &mass,
-                    const int                  direction,
-                    Component                 &component,
-                    const std::vector<double> &right_side,
-                    std::vector<double>       &solution);
+    correct(const std::vector<double> &defect, std::vector<double> &nodal, double &energy);
 
     std::vector<Component>                     components;
     std::array<unsigned int, std::size_t(dim)> component_of_direction;
