@@ -236,8 +236,10 @@ TYPED_TEST(BasisStencil, SnapsToGridLinesThatItHardlyPasses)
     {
       EXPECT_EQ(less.value[d][0], linear.value[d][0]);
       EXPECT_EQ(less.slope[d][1], linear.slope[d][1]);
-      // the jump at the limit: the far node gets 1e-6/(4 l), l = 0.2, and slope 1e-3/(2 l)
-      EXPECT_NEAR(more.value[d][0], 1.25e-6, 1e-8);
-      EXPECT_NEAR(more.slope[d][0] * lattice.h[d], -2.5e-3, 1e-4);
+      // the jump at the limit: an overlap s gives the far node s^2/(4 l), l = 0.2, and slope
+      // s/(2 l), here within the 0.1 % by which s passes the limit, and the change of l
+      const double s = gimp_smallest_overlap;
+      EXPECT_NEAR(more.value[d][0], s * s / 0.8, 0.01 * s * s / 0.8);
+      EXPECT_NEAR(more.slope[d][0] * lattice.h[d], -s / 0.4, 0.01 * s / 0.4);
     }
 }
