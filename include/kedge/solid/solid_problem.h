@@ -51,8 +51,8 @@ namespace kedge
            const bool                 new_pattern);
 
     /**
-     * Starts a step from t_n of size dt. @p state.displacement is the
-     * predictor at the free components; the prescribed and tied ones are set here.
+     * Starts a step from t_n of size dt. @p state.displacement is the first
+     * guess at the free components; the prescribed and tied ones are set here.
      */
     void
     start(NodalState &state, const double t_n, const double dt);
