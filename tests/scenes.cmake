@@ -46,9 +46,22 @@ kedge_add_scene_test(scene.falling_body.printed_newmark prm/falling_body.prm
 
 # --- Killed and resumed: bit for bit the same ---------------------------------
 kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
-  SET "Time/End = 10" "Output/Checkpoint every steps = 5")
+  SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Newton/Log = true"
+    "Mapping/Audit = true")
 kedge_add_restart_test(scene.restart.2ranks prm/quickstart.prm KILLS 2 RANKS 2
   SET "Time/End = 0.5" "Output/Checkpoint every steps = 5")
+
+kedge_add_test(scene.stop_and_resume LABELS scene restart
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/stop_and_resume.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/stop_and_resume)
+
+# --- The tables that a run writes on demand -----------------------------------
+kedge_add_test(scene.newton_order LABELS scene
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/newton_order.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/newton_order)
+kedge_add_test(scene.transfer_audit LABELS scene
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/transfer_audit.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/transfer_audit)
 
 # --- What a user may get wrong: refused with the cause, exit code 1 -----------
 function(kedge_add_refusal_test name message)

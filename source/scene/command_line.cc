@@ -74,7 +74,7 @@ namespace kedge
          "",
          "a failed check of the scene makes the exit code 2",
          raise(&CommandLine::strict)},
-        {"--threads", "", "N", "number of threads", set_threads},
+        {"--threads", "", "N", "threads of the BLAS in direct solvers (1); all else uses one, see mpirun", set_threads},
         {"--print-parameters",
          "",
          "",

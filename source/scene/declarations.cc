@@ -302,7 +302,7 @@ namespace kedge
            {"Log",
             "false",
             allow.truth(),
-            "Write newton.csv: the norms of every residual and correction."}}};
+            "Write newton.csv: the norms of every residual and correction, and the order."}}};
       }
 
       SectionDeclaration
@@ -348,7 +348,7 @@ namespace kedge
                  {"Audit",
                   "false",
                   allow.truth(),
-                  "Write what each mapping loses of momenta and kinetic energy."}}};
+                  "Write transfer_audit.csv: what each mapping loses of momenta and kinetic energy."}}};
       }
 
       SectionDeclaration
