@@ -28,7 +28,7 @@ namespace kedge
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
       probe_names.push_back(probe.name);
-    verify_checks<dim>(scene.checks, HistoryColumns{dim, false, false}, probe_names);
+    verify_checks<dim>(scene.checks, columns(), probe_names);
 
     engine.create_points();
     if (options.resume)
@@ -56,7 +56,7 @@ namespace kedge
   void
   Simulation<dim>::start_fresh()
   {
-    history       = std::make_unique<HistoryWriter>(folder, HistoryColumns{dim, false, false});
+    history       = std::make_unique<HistoryWriter>(folder, columns());
     probes        = std::make_unique<ProbeWriter<dim>>(folder, find_probes());
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output);
     if (scene.output.grid)

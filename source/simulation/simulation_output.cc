@@ -251,7 +251,7 @@ namespace kedge
     if (n_points_written > 0)
       last_points_step = data.counters.at("last_points_step");
     history       = std::make_unique<HistoryWriter>(folder,
-                                              HistoryColumns{dim, false, false},
+                                              columns(),
                                               data.counters.at("history_position"));
     probes        = std::make_unique<ProbeWriter<dim>>(folder,
                                                 find_probes(),

@@ -54,6 +54,11 @@ namespace kedge
     , scheme(scene.time)
     , stencil_radius(radius_of(scene))
     , material_of_body(materials_of_bodies(scene))
+    , with_history(std::any_of(material_of_body.begin(),
+                               material_of_body.end(),
+                               [](const Material &m) {
+                                 return has_history(m);
+                               }))
     , body_names(names_of_bodies(scene))
     , background(scene.grid, communicator)
     , conditions(scene.node_conditions, scene.constants)
@@ -83,7 +88,7 @@ namespace kedge
     if (activated)
       return;
     const double begin = MPI_Wtime();
-    step_points.reinit(background, cloud, basis_of_body);
+    step_points.reinit(background, cloud, basis_of_body, with_history);
     auto reached = step_points.reached_nodes(background.window());
     ties.find(background, step_points, scene.transfer.smallest_filling, reached);
     const bool new_nodes = nodes.reinit(background, reached);

@@ -122,13 +122,13 @@ namespace kedge
     double                     t_n        = 0.;
     double                     dt         = 0.;
 
-    NodeMatrix<dim>            stiffness;
-    EquationSystem<dim>        equations;
+    NodeMatrix<dim>          stiffness;
+    EquationSystem<dim>      equations;
     std::vector<NodalStatus> status;
-    std::vector<double>        internal, inertia, acceleration, residual, correction;
-    std::vector<double>        diagonal; ///< of the last tangent, at the equations
-    SolidTimings               timings_;
-    std::string                warning_;
+    std::vector<double>      internal, inertia, acceleration, residual, correction;
+    std::vector<double>      diagonal; ///< of the last tangent, at the equations
+    SolidTimings             timings_;
+    std::string              warning_;
   };
 } // namespace kedge
 
