@@ -202,24 +202,25 @@ namespace kedge
     if (finished)
       summary.checks =
         evaluate_checks<dim>(scene.checks, folder, engine.points().records(), scene.constants);
-    summary.versions            = software_versions();
-    summary.scene               = scene.name;
-    summary.title               = scene.title;
-    summary.status              = status;
-    summary.reason              = reason;
-    summary.dim                 = dim;
-    summary.n_ranks             = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    summary.counts              = {{"material_points", row.n_points},
-                                   {"active_cells", row.n_active_cells},
-                                   {"dofs", row.n_dofs}};
-    summary.n_steps             = clock.n_steps();
-    summary.n_newton_iterations = totals.newton;
-    summary.n_linear_iterations = totals.linear;
-    summary.n_rejected_attempts = totals.rejected;
-    summary.wall_seconds        = wall_time();
-    summary.cpu_seconds         = cpu_seconds(communicator);
-    summary.phase_wall_seconds  = engine.phase_seconds();
-    double in_steps             = 0.;
+    summary.versions                   = software_versions();
+    summary.scene                      = scene.name;
+    summary.title                      = scene.title;
+    summary.status                     = status;
+    summary.reason                     = reason;
+    summary.dim                        = dim;
+    summary.n_ranks                    = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    summary.counts                     = {{"material_points", row.n_points},
+                                          {"active_cells", row.n_active_cells},
+                                          {"dofs", row.n_dofs}};
+    summary.n_steps                    = clock.n_steps();
+    summary.n_newton_iterations        = totals.newton;
+    summary.n_linear_iterations        = totals.linear;
+    summary.n_rejected_attempts        = totals.rejected;
+    summary.largest_condition_estimate = engine.largest_condition();
+    summary.wall_seconds               = wall_time();
+    summary.cpu_seconds                = cpu_seconds(communicator);
+    summary.phase_wall_seconds         = engine.phase_seconds();
+    double in_steps                    = 0.;
     for (const auto &phase : summary.phase_wall_seconds)
       in_steps += phase.second;
     summary.phase_wall_seconds["output"] = output_seconds;

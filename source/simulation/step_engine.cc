@@ -34,6 +34,21 @@ namespace kedge
       return result;
     }
 
+    /** What to change if bodies have too few points to hold their nodes; else empty. */
+    template <int dim>
+    std::string
+    hint_on_points(const Scene<dim> &scene)
+    {
+      for (const auto &body : scene.bodies)
+        for (const unsigned int n : body.points_per_cell)
+          if (n < 2)
+            return "; body '" + body.name +
+                   "' has one material point per cell in some direction, which cannot hold all "
+                   "motions of its nodes: take two or more (Points per cell), or damp them "
+                   "(Mapping/Lumping > 0)";
+      return "";
+    }
+
     template <int dim>
     std::vector<std::string>
     names_of_bodies(const Scene<dim> &scene)
@@ -142,10 +157,14 @@ namespace kedge
     problem.start(nodal, t, dt);
     report.newton = solve_newton(problem, scene.newton);
     report.cause  = report.newton.cause;
-    if (!report.newton.converged && !problem.warning().empty())
-      report.cause += "; " + problem.warning();
     if (!report.newton.converged)
-      return report;
+      {
+        const std::string diagnosis = problem.diagnosis();
+        if (!diagnosis.empty())
+          report.cause += "; " + diagnosis;
+        report.cause += hint_on_points(scene);
+        return report;
+      }
 
     begin           = MPI_Wtime();
     report.cause    = check_points();

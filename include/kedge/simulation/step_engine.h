@@ -143,6 +143,13 @@ namespace kedge
       return problem.n_equations();
     }
 
+    /** Worst condition estimate of a tangent so far; 0 if unknown. */
+    double
+    largest_condition() const
+    {
+      return problem.largest_condition();
+    }
+
     std::string
     linear_method() const
     {
