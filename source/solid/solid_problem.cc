@@ -4,23 +4,6 @@ namespace kedge
 {
   namespace
   {
-    /** Adds the wall time of its life to a sum. */
-    class Stopwatch
-    {
-    public:
-      explicit Stopwatch(double &sum)
-        : sum(sum)
-        , begin(MPI_Wtime())
-      {}
-      ~Stopwatch()
-      {
-        sum += MPI_Wtime() - begin;
-      }
-
-    private:
-      double      &sum;
-      const double begin;
-    };
     /** Raises the scaled diagonal of a singular tangent; Newton's residual stays exact. */
     constexpr double singular_shift = 1e-10;
 
