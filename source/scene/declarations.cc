@@ -123,8 +123,9 @@ namespace kedge
                 SectionKind::named,
                 {{"Model",
                   "hencky",
-                  allow.one_of({"hencky"}),
-                  "hencky: Kirchhoff stress linear in the logarithmic strain."},
+                  allow.one_of({"hencky", "von_mises"}),
+                  "hencky: Kirchhoff stress linear in the logarithmic strain. von_mises: that, "
+                  "with associated plastic flow at a yield stress that hardens linearly."},
                  {"Density",
                   required,
                   allow.number(Range::positive()),
@@ -136,7 +137,21 @@ namespace kedge
                  {"Poisson's ratio",
                   required,
                   allow.number(poisson),
-                  "Lateral contraction over extension, nu [-]."}}};
+                  "Lateral contraction over extension, nu [-]."},
+                 {"Yield radius rho_y",
+                  "",
+                  allow.number(Range::positive()).or_empty(),
+                  "von_mises: norm of the deviatoric stress, ||s||, at which the material yields "
+                  "[Pa]. Either this or the next."},
+                 {"Uniaxial yield stress sigma_y",
+                  "",
+                  allow.number(Range::positive()).or_empty(),
+                  "von_mises: stress at which a bar in tension yields, sqrt(3/2) rho_y [Pa]."},
+                 {"Hardening modulus",
+                  "0",
+                  allow.number(Range::not_negative()),
+                  "von_mises: growth of sigma_y with the equivalent plastic strain, H [Pa]; 0 is "
+                  "perfect plasticity."}}};
       }
 
       SectionDeclaration
@@ -290,19 +305,18 @@ namespace kedge
       SectionDeclaration
       newton() const
       {
-        return {
-          "Newton",
-          "When a step counts as solved.",
-          SectionKind::plain,
-          {{"Tolerance",
-            "1e-11",
-            allow.number(Range::positive()),
-            "Of |r_k| |du_k| / (|r_0| |du_1|), residual times correction [-]."},
-           {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."},
-           {"Log",
-            "false",
-            allow.truth(),
-            "Write newton.csv: the norms of every residual and correction, and the order."}}};
+        return {"Newton",
+                "When a step counts as solved.",
+                SectionKind::plain,
+                {{"Tolerance",
+                  "1e-11",
+                  allow.number(Range::positive()),
+                  "Of |r_k| |du_k| / (|r_0| |du_1|), residual times correction [-]."},
+                 {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."},
+                 {"Log",
+                  "false",
+                  allow.truth(),
+                  "Write newton.csv: every residual and correction, and the order."}}};
       }
 
       SectionDeclaration
@@ -328,27 +342,28 @@ namespace kedge
       {
         Range fraction = Range::not_negative();
         fraction.upper = 1;
-        return {"Mapping",
-                "Between material points and grid.",
-                SectionKind::plain,
-                {{"Velocity",
-                  "flip",
-                  allow.one_of({"flip", "pic"}),
-                  "flip: points take the change of the grid's velocity. pic: the velocity itself, "
-                  "which damps."},
-                 {"Lumping",
-                  "0",
-                  allow.number(fraction),
-                  "Mass matrix from 0, consistent, to 1, lumped [-]."},
-                 {"Smallest filling",
-                  "0.05",
-                  allow.number(fraction),
-                  "A node with less material than this is tied to the nearest well-filled cell; "
-                  "0: no ties [cells]."},
-                 {"Audit",
-                  "false",
-                  allow.truth(),
-                  "Write transfer_audit.csv: what each mapping loses of momenta and kinetic energy."}}};
+        return {
+          "Mapping",
+          "Between material points and grid.",
+          SectionKind::plain,
+          {{"Velocity",
+            "flip",
+            allow.one_of({"flip", "pic"}),
+            "flip: points take the change of the grid's velocity. pic: the velocity itself, "
+            "which damps."},
+           {"Lumping",
+            "0",
+            allow.number(fraction),
+            "Mass matrix from 0, consistent, to 1, lumped [-]."},
+           {"Smallest filling",
+            "0.05",
+            allow.number(fraction),
+            "A node with less material than this is tied to the nearest well-filled cell; "
+            "0: no ties [cells]."},
+           {"Audit",
+            "false",
+            allow.truth(),
+            "Write transfer_audit.csv: what each mapping loses of momenta and kinetic energy."}}};
       }
 
       SectionDeclaration

@@ -28,7 +28,7 @@ namespace kedge
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
       probe_names.push_back(probe.name);
-    verify_checks<dim>(scene.checks, HistoryColumns{dim, false, false}, probe_names);
+    verify_checks<dim>(scene.checks, columns(), probe_names);
 
     engine.create_points();
     if (options.resume)
@@ -56,7 +56,7 @@ namespace kedge
   void
   Simulation<dim>::start_fresh()
   {
-    history       = std::make_unique<HistoryWriter>(folder, HistoryColumns{dim, false, false});
+    history       = std::make_unique<HistoryWriter>(folder, columns());
     probes        = std::make_unique<ProbeWriter<dim>>(folder, find_probes());
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output);
     if (scene.output.grid)
@@ -198,24 +198,25 @@ namespace kedge
     if (finished)
       summary.checks =
         evaluate_checks<dim>(scene.checks, folder, engine.points().records(), scene.constants);
-    summary.versions            = software_versions();
-    summary.scene               = scene.name;
-    summary.title               = scene.title;
-    summary.status              = status;
-    summary.reason              = reason;
-    summary.dim                 = dim;
-    summary.n_ranks             = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    summary.counts              = {{"material_points", row.n_points},
-                                   {"active_cells", row.n_active_cells},
-                                   {"dofs", row.n_dofs}};
-    summary.n_steps             = clock.n_steps();
-    summary.n_newton_iterations = totals.newton;
-    summary.n_linear_iterations = totals.linear;
-    summary.n_rejected_attempts = totals.rejected;
-    summary.wall_seconds        = wall_time();
-    summary.cpu_seconds         = cpu_seconds(communicator);
-    auto   phases               = engine.phase_times();
-    double in_steps             = 0.;
+    summary.versions                   = software_versions();
+    summary.scene                      = scene.name;
+    summary.title                      = scene.title;
+    summary.status                     = status;
+    summary.reason                     = reason;
+    summary.dim                        = dim;
+    summary.n_ranks                    = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    summary.counts                     = {{"material_points", row.n_points},
+                                          {"active_cells", row.n_active_cells},
+                                          {"dofs", row.n_dofs}};
+    summary.n_steps                    = clock.n_steps();
+    summary.n_newton_iterations        = totals.newton;
+    summary.n_linear_iterations        = totals.linear;
+    summary.n_rejected_attempts        = totals.rejected;
+    summary.largest_condition_estimate = engine.largest_condition();
+    summary.wall_seconds               = wall_time();
+    summary.cpu_seconds                = cpu_seconds(communicator);
+    auto   phases                      = engine.phase_times();
+    double in_steps                    = 0.;
     for (const auto &phase : phases)
       in_steps += phase.second.wall;
     phases["output"] = output_time;

@@ -259,9 +259,8 @@ namespace kedge
     const auto n_points_written = static_cast<unsigned int>(data.counters.at("points_written"));
     if (n_points_written > 0)
       last_points_step = data.counters.at("last_points_step");
-    history       = std::make_unique<HistoryWriter>(folder,
-                                              HistoryColumns{dim, false, false},
-                                              data.counters.at("history_position"));
+    history =
+      std::make_unique<HistoryWriter>(folder, columns(), data.counters.at("history_position"));
     probes        = std::make_unique<ProbeWriter<dim>>(folder,
                                                 find_probes(),
                                                 data.counters.at("probes_position"));

@@ -34,6 +34,21 @@ namespace kedge
       return result;
     }
 
+    /** What to change if bodies have too few points to hold their nodes; else empty. */
+    template <int dim>
+    std::string
+    hint_on_points(const Scene<dim> &scene)
+    {
+      for (const auto &body : scene.bodies)
+        for (const unsigned int n : body.points_per_cell)
+          if (n < 2)
+            return "; body '" + body.name +
+                   "' has one material point per cell in some direction, which cannot hold all "
+                   "motions of its nodes: take two or more (Points per cell), or damp them "
+                   "(Mapping/Lumping > 0)";
+      return "";
+    }
+
     template <int dim>
     std::vector<std::string>
     names_of_bodies(const Scene<dim> &scene)
@@ -54,6 +69,11 @@ namespace kedge
     , scheme(scene.time)
     , stencil_radius(radius_of(scene))
     , material_of_body(materials_of_bodies(scene))
+    , with_history(std::any_of(material_of_body.begin(),
+                               material_of_body.end(),
+                               [](const Material &m) {
+                                 return has_history(m);
+                               }))
     , body_names(names_of_bodies(scene))
     , background(scene.grid, communicator)
     , conditions(scene.node_conditions, scene.constants)
@@ -102,7 +122,7 @@ namespace kedge
   void
   StepEngine<dim>::find_nodes()
   {
-    step_points.reinit(background, cloud, basis_of_body);
+    step_points.reinit(background, cloud, basis_of_body, with_history);
     auto reached = step_points.reached_nodes(background.window());
     ties.find(background, step_points, scene.transfer.smallest_filling, reached);
     const bool new_nodes = nodes.reinit(background, reached);
@@ -147,10 +167,14 @@ namespace kedge
     problem.start(nodal, t, dt);
     report.newton = solve_newton(problem, scene.newton);
     report.cause  = report.newton.cause;
-    if (!report.newton.converged && !problem.warning().empty())
-      report.cause += "; " + problem.warning();
     if (!report.newton.converged)
-      return report;
+      {
+        const std::string diagnosis = problem.diagnosis();
+        if (!diagnosis.empty())
+          report.cause += "; " + diagnosis;
+        report.cause += hint_on_points(scene);
+        return report;
+      }
 
     const Stopwatch stopwatch(phases["history update"]);
     report.cause    = check_points();

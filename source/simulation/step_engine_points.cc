@@ -287,18 +287,22 @@ namespace kedge
     {
       kinetic,
       strain,
+      hardening,
+      dissipation,
       mass_sum,
       linear,
       angular = linear + 3,
       n_sums  = angular + 3
     };
-    double              sums[n_sums] = {}, min_det = std::numeric_limits<double>::max();
-    std::vector<double> energy(step_points.size());
+    double sums[n_sums] = {}, min_det = std::numeric_limits<double>::max();
+    std::vector<std::array<double, 3>> energy(step_points.size());
     cloud.for_each([&](const unsigned int number,
                        const std::uint64_t,
                        const dealii::Point<dim> &,
                        const PointState<dim> &state) {
-      energy[step_points.slot_of[number]] = state.reference_volume * state.strain_energy;
+      const double V0                     = state.reference_volume;
+      energy[step_points.slot_of[number]] = {
+        {V0 * state.strain_energy, V0 * state.hardening_energy, V0 * state.plastic_dissipation}};
     });
     for (unsigned int slot = 0; slot < step_points.size(); ++slot)
       {
@@ -311,7 +315,8 @@ namespace kedge
             sums[linear + d] += p[d];
           }
         sums[kinetic] += 0.5 * m * step_points.velocity[slot].norm_square();
-        sums[strain] += energy[slot];
+        for (int e = 0; e < 3; ++e)
+          sums[strain + e] += energy[slot][e];
         sums[mass_sum] += m;
         sums[angular + 0] += x[1] * p[2] - x[2] * p[1];
         sums[angular + 1] += x[2] * p[0] - x[0] * p[2];
@@ -319,9 +324,11 @@ namespace kedge
         min_det = std::min(min_det, step_points.determinant[slot]);
       }
     MPI_Allreduce(MPI_IN_PLACE, sums, n_sums, MPI_DOUBLE, MPI_SUM, communicator);
-    row.kinetic_energy = sums[kinetic];
-    row.strain_energy  = sums[strain];
-    row.mass           = sums[mass_sum];
+    row.kinetic_energy      = sums[kinetic];
+    row.strain_energy       = sums[strain];
+    row.hardening_energy    = sums[hardening];
+    row.plastic_dissipation = sums[dissipation];
+    row.mass                = sums[mass_sum];
     for (int d = 0; d < 3; ++d)
       {
         row.linear_momentum[d]  = sums[linear + d];

@@ -76,6 +76,13 @@ namespace kedge
     write_checkpoint_if_due();
     ExitCode
     finish(const std::string &status, const std::string &reason);
+    /** What history.csv holds in this scene. */
+    HistoryColumns
+    columns() const
+    {
+      return {dim, engine.has_plasticity(), false};
+    }
+
     double
     wall_time() const;
     std::vector<Probe>

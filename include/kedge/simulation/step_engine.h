@@ -132,10 +132,24 @@ namespace kedge
     void
     activate();
 
+    /** Whether a material of the scene can yield. */
+    bool
+    has_plasticity() const
+    {
+      return with_history;
+    }
+
     std::uint64_t
     n_equations() const
     {
       return problem.n_equations();
+    }
+
+    /** Worst condition estimate of a tangent so far; 0 if unknown. */
+    double
+    largest_condition() const
+    {
+      return problem.largest_condition();
     }
 
     std::string
@@ -188,6 +202,7 @@ namespace kedge
     const int                stencil_radius;
     std::vector<BasisKind>   basis_of_body;
     std::vector<Material>    material_of_body;
+    const bool               with_history; ///< of any material
     std::vector<std::string> body_names;
 
     BackgroundGrid<dim>  background;
