@@ -63,9 +63,10 @@ namespace
       for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
         {
           const auto &material = std::get<VonMises>(internal.material_of_body(batch.body));
-          const auto  tau = material.elastic.respond(points.stress_state[slot].strain, {0., 0., 0.})
-                             .kirchhoff_stress;
-          double square = 0.;
+          const auto  response =
+            material.elastic.respond(points.stress_state[slot].strain, {0., 0., 0.});
+          const auto &tau    = response.kirchhoff_stress;
+          double      square = 0.;
           for (const double principal : tau)
             square += std::pow(principal - (tau[0] + tau[1] + tau[2]) / 3., 2);
           const double gap = points.id[slot] % 2 == 0 ? 0. : 0.1;
@@ -107,7 +108,7 @@ namespace
           std::visit(
             [&](const auto &material) {
               using Law = std::decay_t<decltype(material)>;
-              PointUpdate<dim> update;
+              PointUpdate<dim> update{};
               const auto       history = cloud.step.template history_of<Law>(slot);
               const auto      &state   = cloud.step.stress_state[slot];
               EXPECT_TRUE(update_point<dim>(material, state, history, A, update));

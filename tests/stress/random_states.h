@@ -126,8 +126,8 @@ namespace kedge::test
                    const double              gap)
     {
       const Hencky elastic(elasticity);
-      const auto   tau =
-        elastic.respond(make_stress_state(state).strain, {0., 0., 0.}).kirchhoff_stress;
+      const auto   response = elastic.respond(make_stress_state(state).strain, {0., 0., 0.});
+      const auto  &tau      = response.kirchhoff_stress;
       const double pressure = (tau[0] + tau[1] + tau[2]) / 3.;
       double       square   = 0.;
       for (const double principal : tau)
