@@ -319,13 +319,11 @@ TYPED_TEST(SolidInternalForce, NewtonIsOfSecondOrderWhileYielding)
                 u[i] += correction(i);
             }
           ASSERT_LT(errors.back(), 1e-12);
-          // the last correction that does not end in round-off
-          std::size_t last = errors.size() - 1;
-          while (last > 2 && errors[last] < 1e-13)
-            --last;
-          const double order = std::log(errors[last] / errors[last - 1]) /
-                               std::log(errors[last - 1] / errors[last - 2]);
-          EXPECT_GT(order, 1.8) << testing::PrintToString(errors);
+          // e' = C e^2 with C = |K^-1 dK/du| / 2: strains of order u/h, h = 0.5 m,
+          // give C of a few per metre; the last one ends in round-off
+          for (std::size_t k = 1; k < errors.size(); ++k)
+            EXPECT_LT(errors[k], 10. * errors[k - 1] * errors[k - 1] + 2e-14)
+              << testing::PrintToString(errors);
         }
     },
     true);

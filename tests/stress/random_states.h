@@ -105,8 +105,9 @@ namespace kedge::test
             {
               const double tau =
                 material.lame_modulus * volume + 2. * material.shear_modulus * std::log(stretch[j]);
-              if (k == 0)
-                state.elastic_frame[i][j] = V[i][j] * stretch[j];
+              if (k == 0) // at rest exactly, not up to the rounding of V
+                state.elastic_frame[i][j] =
+                  spectrum == Spectrum::identity ? (i == j ? 1. : 0.) : V[i][j] * stretch[j];
               state.deformation_gradient[i][k] += V[i][j] * stretch[j] * Q[k][j];
               if (i <= k)
                 state.kirchhoff_stress[i][k] += V[i][j] * tau * V[k][j];
