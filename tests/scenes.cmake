@@ -29,6 +29,18 @@ kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.block_3d prm/block_3d.prm
   SET "Constants/h = 0.5" COMPARE_RANKS 1e-6)
 
+# --- Plastic flow: the error of the return map halves with the step ------------
+kedge_add_scene_test(scene.element_plasticity prm/element_plasticity.prm
+  COMPARE_RANKS 1e-9)
+kedge_add_scene_test(scene.element_plasticity.half_step prm/element_plasticity.prm
+  SET "Constants/steps = 400")
+foreach(path simple_shear tension_cycle turning_strain)
+  kedge_add_scene_test(path.${path} prm/paths/${path}.prm OPTIONS --drive)
+endforeach()
+kedge_add_scene_test(path.turning_strain.half_step prm/paths/turning_strain.prm
+  OPTIONS --drive SET "Constants/steps = 400")
+kedge_add_scene_test(path.2ranks prm/paths/simple_shear.prm OPTIONS --drive RANKS 2)
+
 # --- Free fall with every scheme ----------------------------------------------
 foreach(scheme clc-midpoint midpoint trapezoidal newmark generalised-alpha)
   kedge_add_scene_test(scene.falling_body.${scheme} prm/falling_body.prm

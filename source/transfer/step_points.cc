@@ -1,3 +1,4 @@
+#include <kedge/stress/point_update.h>
 #include <kedge/transfer/step_points.h>
 
 namespace kedge
@@ -28,30 +29,10 @@ namespace kedge
   StressState<dim>
   make_stress_state(const PointState<dim> &state)
   {
-    StressState<dim> result;
-    for (int i = 0; i < dim; ++i)
-      {
-        double square = 0.;
-        for (int k = 0; k < dim; ++k)
-          {
-            result.elastic_frame[k][i] = state.elastic_frame[k][i];
-            square += state.elastic_frame[k][i] * state.elastic_frame[k][i];
-          }
-        result.squared_stretch[i] = square;
-        result.strain[i]          = 0.5 * std::log(square);
-      }
-    if (dim == 2)
-      result.strain[2] = std::log(state.out_of_plane_elastic_stretch);
-    for (int s = 0; s < n_symmetric<dim>; ++s)
-      {
-        const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
-        double    sum = 0.;
-        for (int k = 0; k < dim; ++k)
-          sum += state.deformation_gradient[i][k] * state.deformation_gradient[j][k];
-        result.left_cauchy_green[s] = sum;
-        result.kirchhoff_stress[s]  = state.kirchhoff_stress[i][j];
-      }
-    return result;
+    return make_stress_state<dim>(state.elastic_frame,
+                                  state.out_of_plane_elastic_stretch,
+                                  state.deformation_gradient,
+                                  state.kirchhoff_stress);
   }
 
 

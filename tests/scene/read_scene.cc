@@ -207,7 +207,7 @@ TEST(SceneRead, WrittenParametersRunAgainAsTheyAre)
   EXPECT_EQ(again.time.break_times, scene.time.break_times);
   EXPECT_EQ(again.checks[2].exact, scene.checks[2].exact);
   // defaults are written too
-  expect_parts(scene.parameters, {"set Model           = hencky", "set Scale     = 1"});
+  expect_parts(scene.parameters, {"set Hardening modulus             = 0", "set Scale     = 1"});
 
   const Scene<3> solid = read_scene<3>(parse(small_scene));
   EXPECT_EQ(read_scene<3>(parse(solid.parameters)).parameters, solid.parameters);
