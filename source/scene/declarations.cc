@@ -138,6 +138,11 @@ namespace kedge
                   required,
                   allow.number(poisson),
                   "Lateral contraction over extension, nu [-]."},
+                 {"Volume change",
+                  "pointwise",
+                  allow.one_of({"pointwise", "cell mean"}),
+                  "What gives the pressure: the change of volume of each point, or its mean over "
+                  "the body's points in a cell, which does not lock."},
                  {"Yield radius rho_y",
                   "",
                   allow.number(Range::positive()).or_empty(),

@@ -1,4 +1,6 @@
+#include <kedge/solid/group_dilatation.h>
 #include <kedge/solid/point_update.h>
+#include <kedge/stress/mean_dilatation.h>
 
 namespace kedge
 {
@@ -7,6 +9,7 @@ namespace kedge
     /**
      * Energies and history at the end of the step, and the stretches
      * exp(d eps^p_i) by which the trial elastic stretches are too long.
+     * @p volume_change is what each principal strain takes from the group.
      */
     template <int dim, class Material>
     void
@@ -14,13 +17,14 @@ namespace kedge
                    const StressState<dim>              &state,
                    const MaterialHistory               &history,
                    const RelativeStress<dim, Material> &r,
+                   const double                         volume_change,
                    double (&plastic_stretch)[3],
                    PointUpdate<dim> &update)
     {
       double strain[3];
       for (int i = 0; i < 3; ++i)
         {
-          strain[i]          = state.strain[i] + r.increment[i];
+          strain[i]          = state.strain[i] + r.increment[i] + volume_change;
           plastic_stretch[i] = 1.;
           if constexpr (Material::has_history)
             {
@@ -42,12 +46,19 @@ namespace kedge
         }
     }
 
+    /**
+     * Updates one point.
+     *
+     * @param volume_change added to each principal elastic strain: a third of
+     *                      what the point's volume strain differs from its group's
+     */
     template <int dim, class Material>
     bool
     update_one(const Material         &material,
                const StressState<dim> &state,
                const MaterialHistory  &history,
                const double (&A)[dim][dim],
+               const double      volume_change,
                PointUpdate<dim> &update)
     {
       double E[n_symmetric<dim>];
@@ -58,7 +69,7 @@ namespace kedge
 
       const auto &tau = r.response.kirchhoff_stress;
       double      plastic_stretch[3];
-      update_history(material, state, history, r, plastic_stretch, update);
+      update_history(material, state, history, r, volume_change, plastic_stretch, update);
       update.out_of_plane_stress         = dim == 2 ? tau[2] : 0.;
       update.out_of_plane_stretch_factor = 1. / plastic_stretch[2];
       for (int i = 0; i < dim; ++i)
@@ -81,7 +92,34 @@ namespace kedge
         for (auto &row : update.elastic_frame)
           for (int k = 0; k < dim; ++k)
             row[k] /= plastic_stretch[k];
+      if (volume_change != 0.)
+        {
+          const double stretch = std::exp(volume_change);
+          update.out_of_plane_stretch_factor *= stretch;
+          for (auto &row : update.elastic_frame)
+            for (double &entry : row)
+              entry *= stretch;
+        }
       return true;
+    }
+
+    /** Updates a point that takes the change of volume @p increment of its group. */
+    template <int dim, class Material>
+    bool
+    update_one_of_group(const Material         &material,
+                        const StressState<dim> &state,
+                        const MaterialHistory  &history,
+                        const double (&A)[dim][dim],
+                        const double      increment,
+                        PointUpdate<dim> &update)
+    {
+      const double strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
+      return update_one<dim>(MeanDilatation<Material>(material, material.bulk_modulus * strain),
+                             state,
+                             history,
+                             A,
+                             (increment - relative_volume_strain<dim>(A)) / 3.,
+                             update);
     }
 
     /**
@@ -121,11 +159,17 @@ namespace kedge
                          std::vector<PointUpdate<dim>> &updates)
   {
     updates.resize(points.size());
+    GroupDilatation   dilatation;
+    const PointStatus groups =
+      evaluate_group_dilatation(points, window, nodes, displacement, 1., dilatation);
+    if (!groups.ok())
+      return groups.failed_slot;
     std::vector<dealii::Tensor<2, dim>> gradients;
     gradients_at_points(points, window, nodes, displacement, gradients);
     for (const auto &batch : points.batches)
       {
-        const unsigned int failed = std::visit(
+        const bool         grouped = points.is_grouped(batch);
+        const unsigned int failed  = std::visit(
           [&](const auto &material) {
             for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
               {
@@ -133,12 +177,18 @@ namespace kedge
                 for (int i = 0; i < dim; ++i)
                   for (int j = 0; j < dim; ++j)
                     A[i][j] = gradients[slot][i][j];
-                if (!update_one<dim>(material,
-                                     points.stress_state[slot],
-                                     points.template history_of<std::decay_t<decltype(material)>>(
-                                       slot),
-                                     A,
-                                     updates[slot]))
+                const auto &state = points.stress_state[slot];
+                const auto  history =
+                  points.template history_of<std::decay_t<decltype(material)>>(slot);
+                const bool ok =
+                  grouped ? update_one_of_group<dim>(material,
+                                                     state,
+                                                     history,
+                                                     A,
+                                                     dilatation.increment[points.group[slot]],
+                                                     updates[slot])
+                           : update_one<dim>(material, state, history, A, 0., updates[slot]);
+                if (!ok)
                   return slot;
               }
             return PointStatus::none;
