@@ -141,13 +141,11 @@ namespace kedge
                  {"Volume change",
                   "pointwise",
                   allow.one_of({"pointwise", "cell mean"}),
-                  "What gives the pressure: the change of volume of each point, or its mean over "
-                  "the body's points in a cell, which does not lock."},
+                  "Whose gives the pressure: a point's own, or the mean in a cell: does not lock."},
                  {"Yield radius rho_y",
                   "",
                   allow.number(Range::positive()).or_empty(),
-                  "von_mises: norm of the deviatoric stress, ||s||, at which the material yields "
-                  "[Pa]. Either this or the next."},
+                  "von_mises: ||s|| at which the material yields [Pa]. Either this or the next."},
                  {"Uniaxial yield stress sigma_y",
                   "",
                   allow.number(Range::positive()).or_empty(),
