@@ -17,6 +17,10 @@ kedge_add_scene_test(scene.cantilever_dynamic_a prm/cantilever_dynamic_a.prm
   COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.cantilever_dynamic_b prm/cantilever_dynamic_b.prm
   SET "Constants/points = 4")
+kedge_add_scene_test(scene.cantilever_dynamic_b_cell_mean prm/cantilever_dynamic_b_cell_mean.prm)
+kedge_add_scene_test(scene.cantilever_dynamic_b_cell_mean.coarse
+  prm/cantilever_dynamic_b_cell_mean.prm
+  SET "Constants/h = 0.5" "Constants/nu = 0.499" COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.discs_elastic prm/discs_elastic.prm
   COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.spinning_body prm/spinning_body.prm

@@ -16,6 +16,28 @@ namespace kedge
 
     template <int dim>
     std::vector<bool>
+    bodies_with_shared_volume(const Scene<dim> &scene)
+    {
+      std::vector<bool> result;
+      for (const auto &body : scene.bodies)
+        result.push_back(scene.materials[body.material].volume_change == VolumeChange::cell_mean);
+      return result;
+    }
+
+    /** How far the points of a cell couple nodes, which is further than one point does. */
+    template <int dim>
+    int
+    stiffness_radius_of(const Scene<dim> &scene)
+    {
+      for (const auto &body : scene.bodies)
+        if (body.basis == BasisKind::gimp &&
+            scene.materials[body.material].volume_change == VolumeChange::cell_mean)
+          return 3;
+      return radius_of(scene);
+    }
+
+    template <int dim>
+    std::vector<bool>
     bodies_with_body_force(const Scene<dim> &scene)
     {
       std::vector<bool> result;
@@ -68,6 +90,8 @@ namespace kedge
     , communicator(communicator)
     , scheme(scene.time)
     , stencil_radius(radius_of(scene))
+    , stiffness_radius(stiffness_radius_of(scene))
+    , shared_volume(bodies_with_shared_volume(scene))
     , material_of_body(materials_of_bodies(scene))
     , with_history(std::any_of(material_of_body.begin(),
                                material_of_body.end(),
@@ -122,7 +146,7 @@ namespace kedge
   void
   StepEngine<dim>::find_nodes()
   {
-    step_points.reinit(background, cloud, basis_of_body, with_history);
+    step_points.reinit(background, cloud, basis_of_body, with_history, shared_volume);
     auto reached = step_points.reached_nodes(background.window());
     ties.find(background, step_points, scene.transfer.smallest_filling, reached);
     const bool new_nodes = nodes.reinit(background, reached);
@@ -135,8 +159,14 @@ namespace kedge
       }
     if (new_pattern)
       ties.localise(nodes, conditions);
-    problem
-      .reinit(background, nodes, conditions, ties, step_points, mass, stencil_radius, new_pattern);
+    problem.reinit(background,
+                   nodes,
+                   conditions,
+                   ties,
+                   step_points,
+                   mass,
+                   stiffness_radius,
+                   new_pattern);
   }
 
 

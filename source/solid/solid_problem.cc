@@ -34,7 +34,7 @@ namespace kedge
                             const NodeTies<dim>       &ties,
                             const StepPoints<dim>     &points,
                             const NodeMatrix<dim>     &mass,
-                            const int                  stencil_radius,
+                            const int                  stiffness_radius,
                             const bool                 new_pattern)
   {
     this->grid       = &grid;
@@ -45,7 +45,7 @@ namespace kedge
     this->mass       = &mass;
     if (!new_pattern)
       return;
-    stiffness.reinit(nodes.n_local(), dim, stencil_radius);
+    stiffness.reinit(nodes.n_local(), dim, stiffness_radius);
     status.resize(std::size_t(nodes.n_local()) * dim);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       for (int d = 0; d < dim; ++d)
@@ -155,15 +155,18 @@ namespace kedge
   void
   SolidProblem<dim>::add_inertia_to_stiffness()
   {
-    const double coefficient = scheme.inertia_coefficient(dt);
+    const double              coefficient = scheme.inertia_coefficient(dt);
+    std::vector<unsigned int> slots(mass->n_slots()); // of the mass, in the wider stiffness
+    for (unsigned int s = 0; s < slots.size(); ++s)
+      slots[s] = stiffness.slot(mass->offset(s));
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       {
         const double *mass_row = mass->row(i, 0);
         for (int p = 0; p < dim; ++p)
           {
             double *row = stiffness.row(i, p);
-            for (unsigned int s = 0; s < stiffness.n_slots(); ++s)
-              row[s * dim + p] += coefficient * mass_row[s];
+            for (unsigned int s = 0; s < slots.size(); ++s)
+              row[slots[s] * dim + p] += coefficient * mass_row[s];
           }
       }
   }

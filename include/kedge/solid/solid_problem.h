@@ -40,7 +40,10 @@ namespace kedge
                  const LinearSolverParameters   &parameters,
                  const std::vector<std::string> &body_names);
 
-    /** Announces points, nodes and conditions of a step. */
+    /**
+     * Announces points, nodes and conditions of a step. The stiffness couples
+     * nodes up to @p stiffness_radius apart, no less than the mass does.
+     */
     void
     reinit(const BackgroundGrid<dim> &grid,
            const ActiveNodes<dim>    &nodes,
@@ -48,7 +51,7 @@ namespace kedge
            const NodeTies<dim>       &ties,
            const StepPoints<dim>     &points,
            const NodeMatrix<dim>     &mass,
-           const int                  stencil_radius,
+           const int                  stiffness_radius,
            const bool                 new_pattern);
 
     /**
