@@ -28,7 +28,7 @@ namespace kedge
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
       probe_names.push_back(probe.name);
-    verify_checks<dim>(scene.checks, HistoryColumns{dim, false, false}, probe_names);
+    verify_checks<dim>(scene.checks, history_columns(), probe_names);
 
     engine.create_points();
     if (options.resume)
@@ -39,6 +39,15 @@ namespace kedge
     run_on_root(communicator, [&] {
       replace_file(folder.path("parameters.prm"), scene.parameters);
     });
+  }
+
+
+
+  template <int dim>
+  HistoryColumns
+  Simulation<dim>::history_columns() const
+  {
+    return {dim, false, scene.stabilisation.method == StabilisationKind::ghost};
   }
 
 
@@ -56,7 +65,7 @@ namespace kedge
   void
   Simulation<dim>::start_fresh()
   {
-    history       = std::make_unique<HistoryWriter>(folder, HistoryColumns{dim, false, false});
+    history       = std::make_unique<HistoryWriter>(folder, history_columns());
     probes        = std::make_unique<ProbeWriter<dim>>(folder, find_probes());
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output);
     if (scene.output.grid)
@@ -137,13 +146,15 @@ namespace kedge
     engine.accept_step();
     clock.advance();
     totals.external_work += engine.work_of_last_step();
+    totals.ghost_work += engine.ghost_work_of_last_step();
 
-    row.step              = clock.n_steps();
-    row.time              = clock.time();
-    row.newton_iterations = step.newton.iterations;
-    row.linear_iterations = step.newton.linear_iterations;
-    row.rejected_attempts = static_cast<unsigned int>(totals.rejected_pending);
-    row.external_work     = totals.external_work;
+    row.step                 = clock.n_steps();
+    row.time                 = clock.time();
+    row.newton_iterations    = step.newton.iterations;
+    row.linear_iterations    = step.newton.linear_iterations;
+    row.rejected_attempts    = static_cast<unsigned int>(totals.rejected_pending);
+    row.external_work        = totals.external_work;
+    row.stabilisation_energy = totals.ghost_work;
     engine.write_books(row);
     row.energy_error = row.total_energy() + row.plastic_dissipation + row.stabilisation_energy -
                        totals.initial_energy - row.external_work;

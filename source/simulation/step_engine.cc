@@ -8,6 +8,8 @@ namespace kedge
     int
     radius_of(const Scene<dim> &scene)
     {
+      if (scene.stabilisation.method == StabilisationKind::ghost)
+        return 2; // a face couples the outer nodes of its two cells
       for (const auto &body : scene.bodies)
         if (body.basis == BasisKind::gimp)
           return 2;
@@ -71,7 +73,10 @@ namespace kedge
               body_names)
   {
     for (const auto &body : scene.bodies)
-      basis_of_body.push_back(body.basis);
+      {
+        basis_of_body.push_back(body.basis);
+        modulus_of_body.push_back(scene.materials[body.material].young_modulus);
+      }
   }
 
 
@@ -84,8 +89,14 @@ namespace kedge
       return;
     const double begin = MPI_Wtime();
     step_points.reinit(background, cloud, basis_of_body);
-    auto reached = step_points.reached_nodes(background.window());
-    ties.find(background, step_points, scene.transfer.smallest_filling, reached);
+    auto       reached  = step_points.reached_nodes(background.window());
+    const bool has_ties = scene.stabilisation.method == StabilisationKind::aggregation;
+    ties.find(background,
+              step_points,
+              has_ties ? scene.stabilisation.smallest_filling : 0.,
+              reached);
+    if (has_ghosts())
+      ghosts.find(background, step_points, modulus_of_body, reached);
     const bool new_nodes = nodes.reinit(background, reached);
     const bool changed   = new_nodes || ties.changed();
     if (new_nodes)
@@ -96,7 +107,15 @@ namespace kedge
       }
     if (changed)
       ties.localise(nodes, conditions);
-    problem.reinit(background, nodes, conditions, ties, step_points, mass, stencil_radius, changed);
+    problem.reinit(background,
+                   nodes,
+                   conditions,
+                   ties,
+                   step_points,
+                   has_ghosts() ? ghosted_mass : mass,
+                   has_ghosts() ? &ghost_stiffness : nullptr,
+                   stencil_radius,
+                   changed);
     const double middle = MPI_Wtime();
     seconds["activation"] += middle - begin;
 
@@ -104,10 +123,35 @@ namespace kedge
       {
         assemble_mass(step_points, background.window(), nodes, mass);
         blend_mass(scene.transfer.lumping, mass, nodes.n_local());
-        mapping.reinit(background, nodes, conditions, ties, mass, changed);
       }
+    if (has_ghosts())
+      assemble_ghosts(new_nodes);
+    if (scheme.dynamic)
+      mapping.reinit(background, nodes, conditions, ties, mapping_mass(), changed);
     seconds["transfer"] += MPI_Wtime() - middle;
     activated = true;
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::assemble_ghosts(const bool new_nodes)
+  {
+    const StabilisationParameters &factors = scene.stabilisation;
+    if (new_nodes)
+      ghost_stiffness.reinit(nodes.n_local(), 1, stencil_radius);
+    ghost_stiffness.set_zero();
+    ghosts.add_stiffness(background, nodes, factors.ghost_stiffness_factor, ghost_stiffness);
+    if (!scheme.dynamic)
+      return;
+    if (new_nodes)
+      ghost_mass.reinit(nodes.n_local(), 1, stencil_radius);
+    ghost_mass.set_zero();
+    ghosts.add_mass(background, nodes, factors.ghost_mass_factor, ghost_mass);
+    ghosted_mass = mass;
+    ghosts.add_mass(background, nodes, factors.ghost_mass_factor, ghosted_mass);
+    ghosts_in_mapping = lumped_mass_ratio(nodes, mass) < badly_conditioned_mass;
   }
 
 
@@ -175,7 +219,7 @@ namespace kedge
       add_to_nodes(step_points, window, nodes, step_points.mass, at_points, momentum);
       ties.restrict_sums(momentum);
       nodes.add_to_owners(momentum, dim);
-      return mapping.solve(background, nodes, ties, mass, momentum, at_nodes);
+      return mapping.solve(background, nodes, ties, mapping_mass(), momentum, at_nodes);
     };
     LinearStatus status = project(step_points.velocity, nodal.velocity_n);
     if (status.success && scheme.carries_acceleration)

@@ -42,6 +42,7 @@ namespace kedge
     struct Totals
     {
       double        external_work      = 0.;
+      double        ghost_work         = 0.;
       double        initial_energy     = 0.;
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
       double        update_seconds     = 0.;
@@ -75,6 +76,8 @@ namespace kedge
     write_checkpoint_if_due();
     ExitCode
     finish(const std::string &status, const std::string &reason);
+    HistoryColumns
+    history_columns() const;
     double
     wall_time() const;
     std::vector<Probe>

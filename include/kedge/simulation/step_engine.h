@@ -6,6 +6,7 @@
 #include <kedge/solid/external_loads.h>
 #include <kedge/solid/point_update.h>
 #include <kedge/solid/solid_problem.h>
+#include <kedge/transfer/ghost_penalty.h>
 #include <kedge/transfer/velocity_mapping.h>
 
 #include <map>
@@ -88,6 +89,13 @@ namespace kedge
       return step_work;
     }
 
+    /** Work done against the ghost stabilisation in the last accepted step [J]. */
+    double
+    ghost_work_of_last_step() const
+    {
+      return ghost_work;
+    }
+
     const MaterialPoints<dim> &
     points() const
     {
@@ -153,6 +161,20 @@ namespace kedge
     cover_points(const std::vector<PointRecord<dim>> &records);
     void
     follow_points();
+    bool
+    has_ghosts() const
+    {
+      return scene.stabilisation.method == StabilisationKind::ghost;
+    }
+    void
+    assemble_ghosts(const bool new_nodes);
+    double
+    work_against_ghosts() const;
+    const NodeMatrix<dim> &
+    mapping_mass() const
+    {
+      return ghosts_in_mapping ? ghosted_mass : mass;
+    }
     LinearStatus
     particle_to_grid(const double t, const double dt);
     void
@@ -168,6 +190,7 @@ namespace kedge
     const int                stencil_radius;
     std::vector<BasisKind>   basis_of_body;
     std::vector<Material>    material_of_body;
+    std::vector<double>      modulus_of_body; ///< Young's [Pa]
     std::vector<std::string> body_names;
 
     BackgroundGrid<dim>  background;
@@ -178,6 +201,10 @@ namespace kedge
     NodeTies<dim>        ties;
     ExternalLoads<dim>   loads;
     NodeMatrix<dim>      mass;
+    GhostPenalty<dim>    ghosts;
+    NodeMatrix<dim>      ghost_mass, ghost_stiffness;
+    NodeMatrix<dim>      ghosted_mass; ///< mass and ghost mass
+    bool                 ghosts_in_mapping = false;
     VelocityMapping<dim> mapping;
     SolidProblem<dim>    problem;
     NodalState           nodal;
@@ -185,10 +212,11 @@ namespace kedge
     std::vector<GeneratedPoint<dim>>    generated;
     LatticeWindow<dim>                  covered;
     std::vector<unsigned int>           weights;
-    bool                                activated = false;
-    double                              step_t    = 0.;
-    double                              step_dt   = 0.;
-    double                              step_work = 0.;
+    bool                                activated  = false;
+    double                              step_t     = 0.;
+    double                              step_dt    = 0.;
+    double                              step_work  = 0.;
+    double                              ghost_work = 0.;
     std::vector<dealii::Tensor<1, dim>> point_forces;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;
