@@ -23,6 +23,14 @@ kedge_add_scene_test(scene.spinning_body prm/spinning_body.prm
   SET "Constants/h = 1" COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.translating_body prm/translating_body.prm
   COMPARE_RANKS 1e-9)
+# no penalty on a rigid motion: the same checks to the same tolerances
+kedge_add_scene_test(scene.translating_body.ghost prm/translating_body.prm
+  SET "Stabilisation/Method = ghost")
+kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.small_cuts.gimp prm/small_cuts.prm
+  SET "Bodies/square/Basis = gimp" "Constants/shift = 3/8")
+kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm
+  SET "Stabilisation/Method = aggregation")
 kedge_add_scene_test(scene.translating_body.linear prm/translating_body.prm
   SET "Bodies/disc/Basis = linear")
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
