@@ -55,6 +55,8 @@ kedge_add_scene_test(scene.falling_body.printed_newmark prm/falling_body.prm
 # --- Killed and resumed: bit for bit the same ---------------------------------
 kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
   SET "Time/End = 10" "Output/Checkpoint every steps = 5")
+kedge_add_restart_test(scene.restart.ghost prm/spinning_body.prm KILLS 1
+  SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Stabilisation/Method = ghost")
 kedge_add_restart_test(scene.restart.2ranks prm/quickstart.prm KILLS 2 RANKS 2
   SET "Time/End = 0.5" "Output/Checkpoint every steps = 5")
 

@@ -23,7 +23,7 @@ namespace
 
   const std::vector<double> moduli = {2.6, 5.};
 
-  /** A cloud with its ghost faces; half of its cells hold a third of their volume or less. */
+  /** A cloud with its ghost faces; its points fill about a fifth of their cells. */
   template <int dim>
   struct GhostCloud : Cloud<dim>
   {
@@ -170,22 +170,24 @@ namespace
     return faces;
   }
 
-  /** Points of a block of cells, two per direction and cell, moved by @p shift cells. */
+  /** A block of 3^dim cells, two points per direction in each, moved by @p shift cells. */
   template <int dim>
   struct ShiftedBlock
   {
     explicit ShiftedBlock(const double shift)
       : grid(some_grid<dim>(box()), MPI_COMM_WORLD)
     {
-      LatticeWindow<dim> block; // two points per direction and cell
+      LatticeWindow<dim> block;
       for (int d = 0; d < dim; ++d)
         {
           block.low[d]     = 3;
-          block.n_cells[d] = 3;
+          block.n_cells[d] = 4;
         }
       std::vector<PointRecord<dim>> records;
-      for (unsigned int k = 0; k < (1u << (2 * dim)); ++k)
+      const auto                    n_points = static_cast<unsigned int>(std::pow(6, dim) + 0.5);
+      for (unsigned int k = 0; k < n_points; ++k)
         {
+          unsigned int     rest = k;
           PointRecord<dim> record;
           std::fill_n(reinterpret_cast<double *>(&record.state), n_state_values<dim>, 0.);
           record.id                     = k;
@@ -193,7 +195,8 @@ namespace
           for (int d = 0; d < dim; ++d)
             {
               const double h     = grid.lattice().h[d];
-              const int    place = (k >> (2 * d)) & 3u;
+              const int    place = rest % 6;
+              rest /= 6;
               record.location[d] = grid.lattice().origin[d] + (3.25 + 0.5 * place + shift) * h;
               record.state.reference_volume *= 0.5 * h;
               record.state.deformation_gradient[d][d] = record.state.elastic_frame[d][d] = 1.;
@@ -391,6 +394,18 @@ TYPED_TEST(TransferGhostMpi, StiffnessIsModulusOverSquareOfTheCellSize)
       }
     EXPECT_NEAR(energy, expected, 1e-12 * expected);
   });
+}
+
+TYPED_TEST(TransferGhostMpi, FullCellsHaveNone)
+{
+  constexpr int dim     = TypeParam::value;
+  const auto    n_faces = [](const double shift) {
+    return dealii::Utilities::MPI::sum(ShiftedBlock<dim>(shift).ghosts.faces().size(),
+                                       MPI_COMM_WORLD);
+  };
+  EXPECT_EQ(n_faces(0.), 0u);
+  // 4^dim cells, of which the 2^dim in the middle are full: all faces but those between these
+  EXPECT_EQ(n_faces(0.3), dim == 2 ? 24u - 4u : 144u - 12u);
 }
 
 TYPED_TEST(TransferGhostMpi, BoundTheConditionOfTheMass)
