@@ -24,7 +24,7 @@ MAY_INCLUDE = {
     # pointwise laws: they know a material and a committed state, no grid
     "stress": {"materials"},
     # sums between points and nodes; the consistent mass must be solved for
-    "transfer": {"basis", "grid", "points", "stress", "solvers"},
+    "transfer": {"basis", "grid", "points", "materials", "stress", "solvers"},
 }
 PHYSICS = MAY_INCLUDE["transfer"] | {"transfer", "materials", "time_integration"}
 MAY_INCLUDE["solid"] = PHYSICS

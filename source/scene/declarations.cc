@@ -122,8 +122,9 @@ namespace kedge
                 SectionKind::named,
                 {{"Model",
                   "hencky",
-                  allow.one_of({"hencky"}),
-                  "hencky: Kirchhoff stress linear in the logarithmic strain."},
+                  allow.one_of({"hencky", "von_mises"}),
+                  "hencky: Kirchhoff stress linear in the logarithmic strain. von_mises: that, "
+                  "with associated plastic flow at a yield stress that hardens linearly."},
                  {"Density",
                   required,
                   allow.number(Range::positive()),
@@ -135,7 +136,21 @@ namespace kedge
                  {"Poisson's ratio",
                   required,
                   allow.number(poisson),
-                  "Lateral contraction over extension, nu [-]."}}};
+                  "Lateral contraction over extension, nu [-]."},
+                 {"Yield radius rho_y",
+                  "",
+                  allow.number(Range::positive()).or_empty(),
+                  "von_mises: norm of the deviatoric stress, ||s||, at which the material yields "
+                  "[Pa]. Either this or the next."},
+                 {"Uniaxial yield stress sigma_y",
+                  "",
+                  allow.number(Range::positive()).or_empty(),
+                  "von_mises: stress at which a bar in tension yields, sqrt(3/2) rho_y [Pa]."},
+                 {"Hardening modulus",
+                  "0",
+                  allow.number(Range::not_negative()),
+                  "von_mises: growth of sigma_y with the equivalent plastic strain, H [Pa]; 0 is "
+                  "perfect plasticity."}}};
       }
 
       SectionDeclaration

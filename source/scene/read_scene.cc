@@ -107,6 +107,26 @@ namespace kedge
 
 
 
+    void
+    read_plasticity(const SectionReader &section, MaterialParameters &material)
+    {
+      const std::string radius = "Yield radius rho_y", uniaxial = "Uniaxial yield stress sigma_y";
+      if (section.text("Model") == "hencky")
+        {
+          for (const auto &entry : {radius, uniaxial})
+            if (!section.is_empty(entry))
+              throw section.error(entry, "Model hencky does not yield; did you mean von_mises?");
+          return;
+        }
+      material.kind              = MaterialKind::von_mises;
+      material.yield_stress      = first_is_given(section, radius, uniaxial)
+                                     ? std::sqrt(1.5) * section.number(radius)
+                                     : section.number(uniaxial);
+      material.hardening_modulus = section.number("Hardening modulus");
+    }
+
+
+
     std::vector<MaterialParameters>
     read_materials(const ParameterReader &reader)
     {
@@ -114,10 +134,10 @@ namespace kedge
       for_each_name(reader, "Materials", [&](const SectionReader &section) {
         MaterialParameters material;
         material.name          = section.name();
-        material.kind          = MaterialKind::hencky;
         material.density       = section.number("Density");
         material.young_modulus = section.number("Young's modulus");
         material.poisson_ratio = section.number("Poisson's ratio");
+        read_plasticity(section, material);
         materials.push_back(material);
       });
       return materials;

@@ -256,10 +256,11 @@ namespace kedge
   ValuePattern
   ValuePatterns<dim>::step() const
   {
-    return ValuePattern("a number greater than 0 [s] | FACTOR cfl | FACTOR density cfl | FACTOR initial cfl",
-                        [c = constants](const auto &text) {
-                          parse_step(text, *c);
-                        });
+    return ValuePattern(
+      "a number greater than 0 [s] | FACTOR cfl | FACTOR density cfl | FACTOR initial cfl",
+      [c = constants](const auto &text) {
+        parse_step(text, *c);
+      });
   }
 
 

@@ -241,9 +241,9 @@ namespace kedge
     StepSizeKind kind   = StepSizeKind::fixed;
     std::string  number = text;
     if (strip_ending(number, "cfl"))
-      kind = strip_ending(number, "initial") ? StepSizeKind::cfl_initial :
-             strip_ending(number, "density") ? StepSizeKind::cfl_density :
-                                               StepSizeKind::cfl_nodal;
+      kind = strip_ending(number, "initial")   ? StepSizeKind::cfl_initial
+             : strip_ending(number, "density") ? StepSizeKind::cfl_density
+                                               : StepSizeKind::cfl_nodal;
     if (number.empty())
       throw UserError("The factor before cfl is missing; write for example 15 cfl.");
     return {kind, parse_number(number, constants, NumberRange::positive())};

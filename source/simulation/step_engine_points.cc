@@ -156,11 +156,56 @@ namespace kedge
 
   template <int dim>
   void
+  StepEngine<dim>::map_velocities_back()
+  {
+    const auto         &window = background.window();
+    const bool          flip   = scene.transfer.velocity_mapping == VelocityUpdate::flip;
+    std::vector<double> v_end(nodal.displacement.size()), change(v_end.size()), a_end;
+    for (std::size_t i = 0; i < v_end.size(); ++i)
+      {
+        v_end[i]  = scheme.end_velocity(nodal.displacement[i],
+                                       nodal.velocity_n[i],
+                                       nodal.acceleration_n[i],
+                                       step_dt);
+        change[i] = v_end[i] - nodal.velocity_n[i];
+      }
+    interpolate_to_points(step_points, window, nodes, flip ? change : v_end, velocity_changes);
+    if (scheme.carries_acceleration)
+      {
+        a_end.resize(v_end.size());
+        for (std::size_t i = 0; i < v_end.size(); ++i)
+          a_end[i] = scheme.end_acceleration(nodal.displacement[i],
+                                             nodal.velocity_n[i],
+                                             nodal.acceleration_n[i],
+                                             step_dt);
+        interpolate_to_points(step_points, window, nodes, a_end, accelerations);
+      }
+    if (!scene.transfer.audit)
+      return;
+    auto velocities = velocity_changes;
+    if (flip)
+      for (unsigned int slot = 0; slot < step_points.size(); ++slot)
+        velocities[slot] += step_points.velocity[slot];
+    audit = audit_transfer(background,
+                           nodes,
+                           step_points,
+                           velocities,
+                           mass,
+                           scene.transfer.lumping,
+                           scene.transfer.velocity_mapping,
+                           nodal.velocity_n,
+                           v_end,
+                           nodal.displacement);
+  }
+
+
+
+  template <int dim>
+  void
   StepEngine<dim>::accept_step()
   {
-    const double begin  = MPI_Wtime();
-    const auto  &window = background.window();
-    double       work   = 0.;
+    const Stopwatch stopwatch(phases["history update"]);
+    double          work = 0.;
     if (!loads.empty())
       {
         // over the step a load does the work of its value in the middle
@@ -175,30 +220,7 @@ namespace kedge
       ghost_work = work_against_ghosts();
 
     if (scheme.dynamic)
-      {
-        std::vector<double> v_end(nodal.displacement.size()), change(v_end.size()), a_end;
-        for (std::size_t i = 0; i < v_end.size(); ++i)
-          {
-            v_end[i]  = scheme.end_velocity(nodal.displacement[i],
-                                           nodal.velocity_n[i],
-                                           nodal.acceleration_n[i],
-                                           step_dt);
-            change[i] = v_end[i] - nodal.velocity_n[i];
-          }
-        const bool flip = scene.transfer.velocity_mapping == VelocityUpdate::flip;
-        interpolate_to_points(step_points, window, nodes, flip ? change : v_end, velocity_changes);
-        if (scheme.carries_acceleration)
-          {
-            a_end.resize(v_end.size());
-            for (std::size_t i = 0; i < v_end.size(); ++i)
-              a_end[i] = scheme.end_acceleration(nodal.displacement[i],
-                                                 nodal.velocity_n[i],
-                                                 nodal.acceleration_n[i],
-                                                 step_dt);
-            interpolate_to_points(step_points, window, nodes, a_end, accelerations);
-          }
-      }
-
+      map_velocities_back();
     cloud.update_each(
       [&](const unsigned int number, dealii::Point<dim> &location, PointState<dim> &state) {
         const unsigned int slot = step_points.slot_of[number];
@@ -210,7 +232,6 @@ namespace kedge
       });
     follow_points();
     activated = false;
-    seconds["history update"] += MPI_Wtime() - begin;
   }
 
 
@@ -300,18 +321,22 @@ namespace kedge
     {
       kinetic,
       strain,
+      hardening,
+      dissipation,
       mass_sum,
       linear,
       angular = linear + 3,
       n_sums  = angular + 3
     };
-    double              sums[n_sums] = {}, min_det = std::numeric_limits<double>::max();
-    std::vector<double> energy(step_points.size());
+    double sums[n_sums] = {}, min_det = std::numeric_limits<double>::max();
+    std::vector<std::array<double, 3>> energy(step_points.size());
     cloud.for_each([&](const unsigned int number,
                        const std::uint64_t,
                        const dealii::Point<dim> &,
                        const PointState<dim> &state) {
-      energy[step_points.slot_of[number]] = state.reference_volume * state.strain_energy;
+      const double V0                     = state.reference_volume;
+      energy[step_points.slot_of[number]] = {
+        {V0 * state.strain_energy, V0 * state.hardening_energy, V0 * state.plastic_dissipation}};
     });
     for (unsigned int slot = 0; slot < step_points.size(); ++slot)
       {
@@ -324,7 +349,8 @@ namespace kedge
             sums[linear + d] += p[d];
           }
         sums[kinetic] += 0.5 * m * step_points.velocity[slot].norm_square();
-        sums[strain] += energy[slot];
+        for (int e = 0; e < 3; ++e)
+          sums[strain + e] += energy[slot][e];
         sums[mass_sum] += m;
         sums[angular + 0] += x[1] * p[2] - x[2] * p[1];
         sums[angular + 1] += x[2] * p[0] - x[0] * p[2];
@@ -332,9 +358,11 @@ namespace kedge
         min_det = std::min(min_det, step_points.determinant[slot]);
       }
     MPI_Allreduce(MPI_IN_PLACE, sums, n_sums, MPI_DOUBLE, MPI_SUM, communicator);
-    row.kinetic_energy = sums[kinetic];
-    row.strain_energy  = sums[strain];
-    row.mass           = sums[mass_sum];
+    row.kinetic_energy      = sums[kinetic];
+    row.strain_energy       = sums[strain];
+    row.hardening_energy    = sums[hardening];
+    row.plastic_dissipation = sums[dissipation];
+    row.mass                = sums[mass_sum];
     for (int d = 0; d < 3; ++d)
       {
         row.linear_momentum[d]  = sums[linear + d];

@@ -88,7 +88,9 @@ namespace kedge
                   evaluate_force_stress<dim, false, rule>(material,
                                                           points.stress_state[slot],
                                                           gradient,
-                                                          context.alpha);
+                                                          context.alpha,
+                                                          points.template history_of<Material>(
+                                                            slot));
                 if (!stress.valid)
                   {
                     status.failed_slot = slot;
@@ -177,7 +179,9 @@ namespace kedge
                   evaluate_force_stress<dim, true, rule>(material,
                                                          points.stress_state[slot],
                                                          gradient,
-                                                         context.alpha);
+                                                         context.alpha,
+                                                         points.template history_of<Material>(
+                                                           slot));
                 add_point<n>(points.volume[slot], stress, basis, sum);
               }
             for (int A = 0; A < n; ++A)

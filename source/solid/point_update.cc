@@ -4,24 +4,63 @@ namespace kedge
 {
   namespace
   {
+    /**
+     * Energies and history at the end of the step, and the stretches
+     * exp(d eps^p_i) by which the trial elastic stretches are too long.
+     */
+    template <int dim, class Material>
+    void
+    update_history(const Material                      &material,
+                   const StressState<dim>              &state,
+                   const MaterialHistory               &history,
+                   const RelativeStress<dim, Material> &r,
+                   double (&plastic_stretch)[3],
+                   PointUpdate<dim> &update)
+    {
+      double strain[3];
+      for (int i = 0; i < 3; ++i)
+        {
+          strain[i]          = state.strain[i] + r.increment[i];
+          plastic_stretch[i] = 1.;
+          if constexpr (Material::has_history)
+            {
+              const double plastic = material.plastic_increment(r.response, i);
+              strain[i] -= plastic;
+              plastic_stretch[i] = std::exp(plastic);
+            }
+        }
+      update.strain_energy             = material.energy(strain);
+      update.hardening_energy          = 0.;
+      update.dissipation               = 0.;
+      update.equivalent_plastic_strain = 0.;
+      if constexpr (Material::has_history)
+        {
+          const MaterialHistory end        = material.updated(r.response, history);
+          update.hardening_energy          = material.hardening_energy(end);
+          update.dissipation               = material.dissipation(r.response);
+          update.equivalent_plastic_strain = end.equivalent_plastic_strain;
+        }
+    }
+
     template <int dim, class Material>
     bool
     update_one(const Material         &material,
                const StressState<dim> &state,
+               const MaterialHistory  &history,
                const double (&A)[dim][dim],
                PointUpdate<dim> &update)
     {
       double E[n_symmetric<dim>];
       relative_strain<dim>(A, E);
-      const RelativeStress<dim> r = evaluate_relative_stress<dim>(material, state, E);
+      const auto r = evaluate_relative_stress<dim>(material, state, E, history);
       if (!r.valid || !(relative_determinant<dim>(A) > 0.))
         return false;
 
-      double strain[3];
-      for (int i = 0; i < 3; ++i)
-        strain[i] = state.strain[i] + r.increment[i];
-      update.strain_energy       = material.energy(strain);
-      update.out_of_plane_stress = dim == 2 ? r.tau[2] : 0.;
+      const auto &tau = r.response.kirchhoff_stress;
+      double      plastic_stretch[3];
+      update_history(material, state, history, r, plastic_stretch, update);
+      update.out_of_plane_stress         = dim == 2 ? tau[2] : 0.;
+      update.out_of_plane_stretch_factor = 1. / plastic_stretch[2];
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
           {
@@ -36,8 +75,12 @@ namespace kedge
           update.kirchhoff_stress[s] = 0.;
           for (int k = 0; k < dim; ++k)
             update.kirchhoff_stress[s] +=
-              r.tau[k] / r.lambda[k] * update.elastic_frame[i][k] * update.elastic_frame[j][k];
+              tau[k] / r.lambda[k] * update.elastic_frame[i][k] * update.elastic_frame[j][k];
         }
+      if constexpr (Material::has_history)
+        for (auto &row : update.elastic_frame)
+          for (int k = 0; k < dim; ++k)
+            row[k] /= plastic_stretch[k];
       return true;
     }
 
@@ -90,7 +133,12 @@ namespace kedge
                 for (int i = 0; i < dim; ++i)
                   for (int j = 0; j < dim; ++j)
                     A[i][j] = gradients[slot][i][j];
-                if (!update_one<dim>(material, points.stress_state[slot], A, updates[slot]))
+                if (!update_one<dim>(material,
+                                     points.stress_state[slot],
+                                     points.template history_of<std::decay_t<decltype(material)>>(
+                                       slot),
+                                     A,
+                                     updates[slot]))
                   return slot;
               }
             return PointStatus::none;
@@ -121,6 +169,11 @@ namespace kedge
         update.kirchhoff_stress[s];
     state.out_of_plane_kirchhoff_stress = update.out_of_plane_stress;
     state.strain_energy                 = update.strain_energy;
+    if (dim == 2)
+      state.out_of_plane_elastic_stretch *= update.out_of_plane_stretch_factor;
+    state.hardening_energy = update.hardening_energy;
+    state.plastic_dissipation += update.dissipation;
+    state.equivalent_plastic_strain = update.equivalent_plastic_strain;
 
     const auto stretch = stretch_diagonal<dim>(state.deformation_gradient);
     for (int d = 0; d < dim; ++d)

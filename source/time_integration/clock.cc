@@ -12,6 +12,12 @@ namespace kedge
 
     /** A remainder of less than this part of a step is not worth a step of its own. */
     constexpr double step_tolerance = 1e-6;
+
+    double
+    halved(const double step, const std::uint64_t times)
+    {
+      return std::ldexp(step, -static_cast<int>(times));
+    }
   } // namespace
 
 
@@ -57,7 +63,7 @@ namespace kedge
   double
   Clock::next_time() const
   {
-    const double step   = std::ldexp(nominal, -static_cast<int>(cuts));
+    const double step   = halved(nominal, cuts);
     const double target = next_target();
     return target - time_ < step * (1. + step_tolerance) ? target : time_ + step;
   }
@@ -72,8 +78,18 @@ namespace kedge
     const double present = step_size();
     do
       ++cuts;
-    while (std::ldexp(nominal, -static_cast<int>(cuts)) > 0.75 * present);
-    return std::ldexp(nominal, -static_cast<int>(cuts)) >= floor() * (1. - step_tolerance);
+    while (halved(nominal, cuts) > 0.75 * present);
+    return halved(nominal, cuts) >= floor() * (1. - step_tolerance);
+  }
+
+
+
+  double
+  Clock::floor() const
+  {
+    const double whole =
+      std::min(nominal, std::max(next_target() - time_, step_tolerance * nominal));
+    return whole * minimum_factor;
   }
 
 
@@ -83,6 +99,9 @@ namespace kedge
   {
     time_ = next_time();
     ++n_steps_;
+    // cuts of a step that the target had made short do not make the next ones so
+    while (cuts > 0 && halved(nominal, cuts) < floor() * (1. - step_tolerance))
+      --cuts;
     if (cuts > 0 && ++accepted_since_cut >= steps_before_growth)
       {
         --cuts;

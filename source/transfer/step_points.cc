@@ -99,7 +99,8 @@ namespace kedge
   void
   StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
                           const MaterialPoints<dim>    &points,
-                          const std::vector<BasisKind> &basis_of_body)
+                          const std::vector<BasisKind> &basis_of_body,
+                          const bool                    with_history)
   {
     const unsigned int                   n = points.n_local();
     std::vector<unsigned int>            cell(n), body(n);
@@ -129,6 +130,7 @@ namespace kedge
     velocity.resize(n);
     acceleration.resize(n);
     stress_state.resize(n);
+    history.resize(with_history ? n : 0);
     slot_of.resize(n);
     id.resize(n);
     loaded.clear();
@@ -148,6 +150,8 @@ namespace kedge
         velocity[slot]     = state.velocity;
         acceleration[slot] = state.acceleration;
         stress_state[slot] = make_stress_state(state);
+        if (with_history)
+          history[slot].equivalent_plastic_strain = state.equivalent_plastic_strain;
       }
   }
 

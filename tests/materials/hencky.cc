@@ -77,7 +77,7 @@ TEST(MaterialsHencky, WorkIsTheDifferenceOfEnergiesAndItsSlopeTheStress)
           const auto still = material.respond(strain, {0, 0, 0});
           for (int i = 0; i < 3; ++i)
             EXPECT_NEAR((moved.kirchhoff_stress[i] - still.kirchhoff_stress[i]) / 0.25,
-                        material.tangent(i, j),
+                        material.tangent(still, i, j),
                         1e-10);
         }
     }

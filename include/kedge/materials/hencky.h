@@ -1,7 +1,10 @@
 #ifndef kedge_materials_hencky_h
 #define kedge_materials_hencky_h
 
+#include <kedge/materials/history.h>
 #include <kedge/materials/parameters.h>
+
+#include <cmath>
 
 namespace kedge
 {
@@ -14,6 +17,8 @@ namespace kedge
   class Hencky
   {
   public:
+    static constexpr bool has_history = false;
+
     /** What the law answers to a principal trial strain. */
     struct Response
     {
@@ -33,7 +38,9 @@ namespace kedge
      * to the increment and not to the stored energy.
      */
     Response
-    respond(const double (&strain_n)[3], const double (&increment)[3]) const
+    respond(const double (&strain_n)[3],
+            const double (&increment)[3],
+            const MaterialHistory & = {}) const
     {
       const double trace_n = strain_n[0] + strain_n[1] + strain_n[2];
       const double trace_d = increment[0] + increment[1] + increment[2];
@@ -65,14 +72,14 @@ namespace kedge
 
     /** dtau_i / deps_j [Pa]. */
     double
-    tangent(const int i, const int j) const
+    tangent(const Response &, const int i, const int j) const
     {
       return lame_modulus + (i == j ? 2. * shear_modulus : 0.);
     }
 
     /** (tau_i - tau_j) / (eps_i - eps_j) of any two principal directions [Pa]. */
     double
-    secant_shear() const
+    secant_shear(const Response &) const
     {
       return 2. * shear_modulus;
     }

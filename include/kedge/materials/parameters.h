@@ -7,7 +7,8 @@ namespace kedge
 {
   enum class MaterialKind
   {
-    hencky
+    hencky,
+    von_mises
   };
 
   /** A material as the scene names it; density in the reference configuration. */
@@ -18,6 +19,10 @@ namespace kedge
     double       density       = 0; ///< [kg/m^3]
     double       young_modulus = 0; ///< [Pa]
     double       poisson_ratio = 0; ///< [-]
+
+    // von_mises
+    double yield_stress      = 0; ///< uniaxial, sigma_y = sqrt(3/2) rho_y [Pa]
+    double hardening_modulus = 0; ///< H [Pa]
   };
 } // namespace kedge
 

@@ -2,9 +2,11 @@
 #define kedge_simulation_simulation_h
 
 #include <kedge/base/exceptions.h>
+#include <kedge/io/audit_writer.h>
 #include <kedge/io/checkpoint.h>
 #include <kedge/io/grid_output.h>
 #include <kedge/io/history_writer.h>
+#include <kedge/io/newton_log.h>
 #include <kedge/io/points_output.h>
 #include <kedge/io/probe_writer.h>
 #include <kedge/io/progress.h>
@@ -45,7 +47,6 @@ namespace kedge
       double        ghost_work         = 0.;
       double        initial_energy     = 0.;
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
-      double        update_seconds     = 0.;
       double        points_times_steps = 0.;
       std::uint64_t newton             = 0;
       std::uint64_t linear             = 0;
@@ -76,8 +77,13 @@ namespace kedge
     write_checkpoint_if_due();
     ExitCode
     finish(const std::string &status, const std::string &reason);
+    /** What history.csv holds in this scene. */
     HistoryColumns
-    history_columns() const;
+    columns() const
+    {
+      return {dim, engine.has_plasticity(), scene.stabilisation.method == StabilisationKind::ghost};
+    }
+
     double
     wall_time() const;
     std::vector<Probe>
@@ -97,13 +103,14 @@ namespace kedge
     std::unique_ptr<ProbeWriter<dim>>  probes;
     std::unique_ptr<PointsOutput<dim>> points_output;
     std::unique_ptr<GridOutput<dim>>   grid_output;
-    std::unique_ptr<CsvFile>           newton_log;
+    std::unique_ptr<NewtonLog>         newton_log;
+    std::unique_ptr<AuditWriter<dim>>  audit_writer;
     CheckpointStore<dim>               checkpoints;
     Progress                           progress;
     double                             last_checkpoint_wall = 0.;
     std::uint64_t                      last_checkpoint_step = 0;
     std::optional<std::uint64_t>       last_points_step; ///< step of the last output of points
-    double                             output_seconds = 0.;
+    PhaseTime                          output_time;
   };
 
   /**

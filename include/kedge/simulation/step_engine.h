@@ -6,10 +6,12 @@
 #include <kedge/solid/external_loads.h>
 #include <kedge/solid/point_update.h>
 #include <kedge/solid/solid_problem.h>
+#include <kedge/transfer/audit.h>
 #include <kedge/transfer/ghost_penalty.h>
 #include <kedge/transfer/velocity_mapping.h>
 
 #include <map>
+#include <optional>
 
 namespace kedge
 {
@@ -138,10 +140,24 @@ namespace kedge
     void
     activate();
 
+    /** Whether a material of the scene can yield. */
+    bool
+    has_plasticity() const
+    {
+      return with_history;
+    }
+
     std::uint64_t
     n_equations() const
     {
       return problem.n_equations();
+    }
+
+    /** Worst condition estimate of a tangent so far; 0 if unknown. */
+    double
+    largest_condition() const
+    {
+      return problem.largest_condition();
     }
 
     std::string
@@ -150,15 +166,33 @@ namespace kedge
       return problem.linear_method();
     }
 
-    /** Wall seconds so far, by phase. */
-    std::map<std::string, double>
-    phase_seconds() const;
+    /** Time spent so far by this process, by phase. */
+    std::map<std::string, PhaseTime>
+    phase_times() const;
+
+    /** Whether the mappings are audited: asked for, and there are velocities to map. */
+    bool
+    audits_transfer() const
+    {
+      return scene.transfer.audit && scheme.dynamic;
+    }
+
+    /** What the mappings of the last accepted step lost, if Mapping/Audit asks for it. */
+    const std::optional<TransferAudit<dim>> &
+    transfer_audit() const
+    {
+      return audit;
+    }
 
   private:
     void
     check_overlaps() const;
     void
     cover_points(const std::vector<PointRecord<dim>> &records);
+    void
+    find_nodes();
+    void
+    map_velocities_back();
     void
     follow_points();
     bool
@@ -167,7 +201,7 @@ namespace kedge
       return scene.stabilisation.method == StabilisationKind::ghost;
     }
     void
-    assemble_ghosts(const bool new_nodes);
+    assemble_ghosts();
     double
     work_against_ghosts() const;
     const NodeMatrix<dim> &
@@ -191,6 +225,7 @@ namespace kedge
     std::vector<BasisKind>   basis_of_body;
     std::vector<Material>    material_of_body;
     std::vector<double>      modulus_of_body; ///< Young's [Pa]
+    const bool               with_history;    ///< of any material
     std::vector<std::string> body_names;
 
     BackgroundGrid<dim>  background;
@@ -212,7 +247,7 @@ namespace kedge
     std::vector<GeneratedPoint<dim>>    generated;
     LatticeWindow<dim>                  covered;
     std::vector<unsigned int>           weights;
-    bool                                activated  = false;
+    bool                                activated = false, new_pattern = false;
     double                              step_t     = 0.;
     double                              step_dt    = 0.;
     double                              step_work  = 0.;
@@ -221,7 +256,8 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;
     std::vector<dealii::Tensor<1, dim>> velocity_changes, accelerations;
-    std::map<std::string, double>       seconds;
+    std::map<std::string, PhaseTime>    phases;
+    std::optional<TransferAudit<dim>>   audit;
   };
 } // namespace kedge
 

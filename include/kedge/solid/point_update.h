@@ -15,7 +15,12 @@ namespace kedge
     double elastic_frame[dim][dim];            ///< B_{n+1}
     double kirchhoff_stress[n_symmetric<dim>]; ///< tau_{n+1} [Pa]
     double out_of_plane_stress;                ///< [Pa]
+    double out_of_plane_stretch_factor;        ///< of the elastic stretch, plane strain
     double strain_energy;                      ///< per V0 [J/m^3]
+    // of a material with a history
+    double hardening_energy;          ///< per V0 [J/m^3]
+    double dissipation;               ///< of this step, per V0 [J/m^3]
+    double equivalent_plastic_strain; ///< at the end of the step
   };
 
   /**
@@ -32,7 +37,7 @@ namespace kedge
                          const std::vector<double>     &displacement,
                          std::vector<PointUpdate<dim>> &updates);
 
-  /** Writes an update into the history: F, elastic frame, stress, energy, GIMP domain. */
+  /** Writes an update into the history: F, elastic frame, stress, energies, GIMP domain. */
   template <int dim>
   void
   apply_point_update(const PointUpdate<dim> &update, PointState<dim> &state);

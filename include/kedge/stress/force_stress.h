@@ -189,13 +189,15 @@ namespace kedge
    * @param rule  what stress is meant
    * @param alpha for StressRule::at_configuration the fraction of the step at
    *              which equilibrium is stated; ignored otherwise
+   * @param history of the material at the start of the step
    */
   template <int dim, bool with_tangent, StressRule rule, class Material>
   inline ForceStress<dim>
   evaluate_force_stress(const Material         &material,
                         const StressState<dim> &state,
                         const double (&A)[dim][dim],
-                        const double alpha)
+                        const double           alpha,
+                        const MaterialHistory &history = {})
   {
     ForceStress<dim> result;
     double           H[n_symmetric<dim>][n_symmetric<dim>];
@@ -211,18 +213,22 @@ namespace kedge
     if (!result.valid)
       return result;
     relative_strain<dim>(at, E);
-    RelativeStress<dim> r = evaluate_relative_stress<dim>(material, state, E);
-    result.valid          = r.valid;
+    RelativeStress<dim, Material> r = evaluate_relative_stress<dim>(material, state, E, history);
+    result.valid                    = r.valid;
     if (!result.valid)
       return result;
-    result.work_increment = r.work_increment;
+    result.work_increment = r.response.work_increment;
 
     if constexpr (with_tangent)
       relative_stress_tangent<dim>(material, r, H);
 
     if constexpr (rule == StressRule::conserving)
       {
-        internal::make_conserving<dim, with_tangent>(state, E, r.work_increment, r.stress, H);
+        internal::make_conserving<dim, with_tangent>(state,
+                                                     E,
+                                                     r.response.work_increment,
+                                                     r.stress,
+                                                     H);
         internal::assemble_force_stress<dim, with_tangent>(at, 0.5, r.stress, H, result);
       }
     else

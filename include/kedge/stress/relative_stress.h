@@ -3,6 +3,7 @@
 
 #include <kedge/base/incremental_spectrum.h>
 #include <kedge/base/symmetric_index.h>
+#include <kedge/materials/history.h>
 
 #include <cmath>
 
@@ -32,17 +33,16 @@ namespace kedge
    * eigenframe of B^T (I + E) B, whose eigenvectors w_i give a_i = B w_i and
    *   S = sum_i tau_i / lambda_i a_i (x) a_i.
    */
-  template <int dim>
+  template <int dim, class Material>
   struct RelativeStress
   {
-    double frame[dim][dim];          ///< a_i as columns
-    double rotation[dim][dim];       ///< w_i as columns
-    double lambda[dim];              ///< squared principal trial stretches
-    double increment[3];             ///< increment of the principal Hencky strain
-    double tau[3];                   ///< principal Kirchhoff stress [Pa]
-    double stress[n_symmetric<dim>]; ///< S [Pa]
-    double work_increment;           ///< Delta Psi + Delta D per V0 [J/m^3]
-    bool   valid;                    ///< false where an eigenvalue is not positive
+    double                      frame[dim][dim];    ///< a_i as columns
+    double                      rotation[dim][dim]; ///< w_i as columns
+    double                      lambda[dim];        ///< squared principal trial stretches
+    double                      increment[3];       ///< increment of the principal Hencky strain
+    typename Material::Response response;           ///< principal Kirchhoff stresses, work
+    double                      stress[n_symmetric<dim>]; ///< S [Pa]
+    bool                        valid; ///< false where an eigenvalue is not positive
   };
 
   /** E = A + A^T + A^T A in the order of symmetric_index(). */
@@ -75,13 +75,14 @@ namespace kedge
 
   /** Evaluates RelativeStress at the relative strain @p E. */
   template <int dim, class Material>
-  inline RelativeStress<dim>
+  inline RelativeStress<dim, Material>
   evaluate_relative_stress(const Material         &material,
                            const StressState<dim> &state,
-                           const double (&E)[n_symmetric<dim>])
+                           const double (&E)[n_symmetric<dim>],
+                           const MaterialHistory &history = {})
   {
-    RelativeStress<dim> result;
-    const auto         &B = state.elastic_frame;
+    RelativeStress<dim, Material> result;
+    const auto                   &B = state.elastic_frame;
 
     // P = B^T E B
     double EB[dim][dim], P[dim][dim], delta[dim];
@@ -115,10 +116,7 @@ namespace kedge
         result.increment[i] = 0.5 * std::log1p(delta[i] / state.squared_stretch[i]);
       }
 
-    const auto response = material.respond(state.strain, result.increment);
-    for (int i = 0; i < 3; ++i)
-      result.tau[i] = response.kirchhoff_stress[i];
-    result.work_increment = response.work_increment;
+    result.response = material.respond(state.strain, result.increment, history);
 
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < dim; ++k)
@@ -132,7 +130,8 @@ namespace kedge
         const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
         double    sum = 0.;
         for (int i = 0; i < dim; ++i)
-          sum += result.tau[i] / result.lambda[i] * result.frame[k][i] * result.frame[l][i];
+          sum += result.response.kirchhoff_stress[i] / result.lambda[i] * result.frame[k][i] *
+                 result.frame[l][i];
         result.stress[s] = sum;
       }
     return result;
@@ -145,11 +144,12 @@ namespace kedge
    */
   template <int dim, class Material>
   inline void
-  relative_stress_tangent(const Material            &material,
-                          const RelativeStress<dim> &r,
+  relative_stress_tangent(const Material                      &material,
+                          const RelativeStress<dim, Material> &r,
                           double (&H)[n_symmetric<dim>][n_symmetric<dim>])
   {
-    constexpr int ns = n_symmetric<dim>;
+    const auto   &tau = r.response.kirchhoff_stress;
+    constexpr int ns  = n_symmetric<dim>;
     double        same[dim][ns];
     for (int i = 0; i < dim; ++i)
       for (int s = 0; s < ns; ++s)
@@ -164,9 +164,9 @@ namespace kedge
         double row[ns] = {};
         for (int j = 0; j < dim; ++j)
           {
-            double h = material.tangent(i, j) / (2. * r.lambda[i] * r.lambda[j]);
+            double h = material.tangent(r.response, i, j) / (2. * r.lambda[i] * r.lambda[j]);
             if (i == j)
-              h -= r.tau[i] / (r.lambda[i] * r.lambda[i]);
+              h -= tau[i] / (r.lambda[i] * r.lambda[i]);
             for (int t = 0; t < ns; ++t)
               row[t] += h * same[j][t];
           }
@@ -182,8 +182,8 @@ namespace kedge
           const double li = r.lambda[i], lj = r.lambda[j], x = (li - lj) / lj;
           const double ratio =
             std::abs(x) < 1e-4 ? 1. - x * (0.5 - x * (1. / 3. - 0.25 * x)) : std::log1p(x) / x;
-          const double secant = material.secant_shear() * 0.5 * ratio / lj;
-          const double g = (0.5 * (li + lj) * secant - 0.5 * (r.tau[i] + r.tau[j])) / (li * lj);
+          const double secant = material.secant_shear(r.response) * 0.5 * ratio / lj;
+          const double g      = (0.5 * (li + lj) * secant - 0.5 * (tau[i] + tau[j])) / (li * lj);
           double       mixed[ns];
           for (int s = 0; s < ns; ++s)
             {

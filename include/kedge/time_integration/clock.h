@@ -60,12 +60,12 @@ namespace kedge
     void
     advance();
 
-    /** The smallest step allowed [s]. */
+    /**
+     * The smallest step allowed [s]: a part of the nominal step, or of the way
+     * to the next break time where that is shorter.
+     */
     double
-    floor() const
-    {
-      return nominal * minimum_factor;
-    }
+    floor() const;
 
     /** What a checkpoint keeps. */
     struct State

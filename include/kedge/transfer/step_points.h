@@ -2,6 +2,7 @@
 #define kedge_transfer_step_points_h
 
 #include <kedge/basis/stencil.h>
+#include <kedge/materials/history.h>
 #include <kedge/points/material_points.h>
 #include <kedge/stress/relative_stress.h>
 
@@ -39,15 +40,31 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> velocity;     ///< [m/s]
     std::vector<dealii::Tensor<1, dim>> acceleration; ///< [m/s^2]
     std::vector<StressState<dim>>       stress_state;
+    std::vector<MaterialHistory>        history;     ///< empty if no material has one
     std::vector<unsigned int>           slot_of;     ///< slot of each point in the cloud's order
     unsigned int                        n_cells = 0; ///< cells with points
     std::vector<unsigned int>           loaded;      ///< slots of the points that carry loads
 
-    /** Reads the cloud; @p basis_of_body says which stencil each body uses. */
+    /**
+     * Reads the cloud; @p basis_of_body says which stencil each body uses,
+     * @p with_history whether any material has a history.
+     */
     void
     reinit(const BackgroundGrid<dim>    &grid,
            const MaterialPoints<dim>    &points,
-           const std::vector<BasisKind> &basis_of_body);
+           const std::vector<BasisKind> &basis_of_body,
+           const bool                    with_history = false);
+
+    /** History of the point in a slot; of no use to a Material without one. */
+    template <class Material>
+    MaterialHistory
+    history_of(const unsigned int slot) const
+    {
+      if constexpr (Material::has_history)
+        return history[slot];
+      else
+        return {};
+    }
 
     unsigned int
     size() const

@@ -1,0 +1,17 @@
+#ifndef kedge_materials_history_h
+#define kedge_materials_history_h
+
+namespace kedge
+{
+  /**
+   * What materials remember beside the elastic strain, as committed at the
+   * end of the last step. A material whose has_history is false neither reads
+   * nor changes it, and a scene of such materials does not store it per step.
+   */
+  struct MaterialHistory
+  {
+    double equivalent_plastic_strain = 0.; ///< alpha [-]
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,156 @@
+#ifndef kedge_materials_von_mises_h
+#define kedge_materials_von_mises_h
+
+#include <kedge/materials/hencky.h>
+
+namespace kedge
+{
+  /**
+   * Associated von Mises plasticity with linear isotropic hardening on
+   * Hencky's elasticity, in principal axes (thesis 3.4, appendix B.1; Simo
+   * 1992). Yield, flow and energies per reference volume:
+   *   f = |s| - sqrt(2/3) (sigma_y + H alpha) <= 0,  s = dev tau,
+   *   d eps^p = d lambda n,  n = s/|s|,  d alpha = sqrt(2/3) d lambda,
+   *   Psi = Psi_1(eps^e) + H alpha^2 / 2,  dD = sigma_y d alpha.
+   * A step returns radially, in closed form:
+   *   d lambda = f^tr / (2 G + 2 H/3),
+   *   dPsi + dD = Psi_1(eps^tr) - Psi_1(eps^e_n) - (G + H/3) d lambda^2,
+   * whose derivative by eps^tr is tau_{n+1}.
+   */
+  class VonMises
+  {
+  public:
+    static constexpr bool has_history = true;
+
+    /** What the law answers to a principal trial strain. */
+    struct Response
+    {
+      double kirchhoff_stress[3]; ///< principal values tau_i [Pa]
+      double work_increment;      ///< dPsi + dD, all stored and dissipated work [J/m^3]
+      double plastic_multiplier;  ///< d lambda = |d eps^p| [-]; 0 in an elastic step
+      double flow[3];             ///< n; unset in an elastic step
+      double shear_factor;        ///< theta = 1 - 2 G d lambda / |s^tr|; 1 in an elastic step
+    };
+
+    explicit VonMises(const MaterialParameters &parameters)
+      : elastic(parameters)
+      , yield_stress(parameters.yield_stress)
+      , hardening_modulus(parameters.hardening_modulus)
+    {}
+
+    Response
+    respond(const double (&strain_n)[3],
+            const double (&increment)[3],
+            const MaterialHistory &history) const
+    {
+      const Hencky::Response trial = elastic.respond(strain_n, increment, history);
+
+      Response     response;
+      const double pressure =
+        (trial.kirchhoff_stress[0] + trial.kirchhoff_stress[1] + trial.kirchhoff_stress[2]) / 3.;
+      double square = 0.;
+      for (int i = 0; i < 3; ++i)
+        {
+          response.kirchhoff_stress[i] = trial.kirchhoff_stress[i];
+          response.flow[i]             = trial.kirchhoff_stress[i] - pressure;
+          square += response.flow[i] * response.flow[i];
+        }
+      response.work_increment     = trial.work_increment;
+      response.plastic_multiplier = 0.;
+      response.shear_factor       = 1.;
+
+      const double norm   = std::sqrt(square);
+      const double excess = norm - radius(history.equivalent_plastic_strain);
+      if (!(excess > 0.))
+        return response;
+
+      const double G              = elastic.shear_modulus;
+      response.plastic_multiplier = excess / (2. * G + 2. / 3. * hardening_modulus);
+      response.shear_factor       = 1. - 2. * G * response.plastic_multiplier / norm;
+      response.work_increment -=
+        (G + hardening_modulus / 3.) * response.plastic_multiplier * response.plastic_multiplier;
+      for (int i = 0; i < 3; ++i)
+        {
+          response.flow[i] /= norm;
+          response.kirchhoff_stress[i] -= 2. * G * response.plastic_multiplier * response.flow[i];
+        }
+      return response;
+    }
+
+    /** dtau_i / deps^tr_j [Pa], consistent with the return. */
+    double
+    tangent(const Response &response, const int i, const int j) const
+    {
+      const double G = elastic.shear_modulus;
+      double       value =
+        elastic.bulk_modulus + 2. * G * response.shear_factor * ((i == j ? 1. : 0.) - 1. / 3.);
+      if (response.plastic_multiplier > 0.)
+        value -= 2. * G *
+                 (response.shear_factor - hardening_modulus / (3. * G + hardening_modulus)) *
+                 response.flow[i] * response.flow[j];
+      return value;
+    }
+
+    /** (tau_i - tau_j) / (eps^tr_i - eps^tr_j) of any two principal directions [Pa]. */
+    double
+    secant_shear(const Response &response) const
+    {
+      return 2. * elastic.shear_modulus * response.shear_factor;
+    }
+
+    /** Elastic free energy Psi_1 of the elastic strain [J/m^3]. */
+    double
+    energy(const double (&elastic_strain)[3]) const
+    {
+      return elastic.energy(elastic_strain);
+    }
+
+    /** Part of the strain increment in direction i that is plastic [-]. */
+    double
+    plastic_increment(const Response &response, const int i) const
+    {
+      return response.plastic_multiplier > 0. ? response.plastic_multiplier * response.flow[i] : 0.;
+    }
+
+    /** alpha at the end of the step. */
+    MaterialHistory
+    updated(const Response &response, const MaterialHistory &history) const
+    {
+      return {history.equivalent_plastic_strain + std::sqrt(2. / 3.) * response.plastic_multiplier};
+    }
+
+    /** Psi_2 = H alpha^2 / 2, energy stored in hardening [J/m^3]. */
+    double
+    hardening_energy(const MaterialHistory &history) const
+    {
+      return 0.5 * hardening_modulus * history.equivalent_plastic_strain *
+             history.equivalent_plastic_strain;
+    }
+
+    /** dD = sigma_y d alpha of the step [J/m^3]. */
+    double
+    dissipation(const Response &response) const
+    {
+      return std::sqrt(2. / 3.) * yield_stress * response.plastic_multiplier;
+    }
+
+    double
+    p_wave_modulus() const
+    {
+      return elastic.p_wave_modulus();
+    }
+
+    /** Radius of the yield surface, largest |s| [Pa]. */
+    double
+    radius(const double equivalent_plastic_strain) const
+    {
+      return std::sqrt(2. / 3.) * (yield_stress + hardening_modulus * equivalent_plastic_strain);
+    }
+
+    const Hencky elastic;
+    const double yield_stress;      ///< sigma_y, uniaxial, of the virgin material [Pa]
+    const double hardening_modulus; ///< H = d sigma_y / d alpha [Pa]
+  };
+} // namespace kedge
+
+#endif
