@@ -27,6 +27,14 @@ kedge_add_scene_test(scene.spinning_body prm/spinning_body.prm
   SET "Constants/h = 1" COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.translating_body prm/translating_body.prm
   COMPARE_RANKS 1e-9)
+# no penalty on a rigid motion: the same checks to the same tolerances
+kedge_add_scene_test(scene.translating_body.ghost prm/translating_body.prm
+  SET "Stabilisation/Method = ghost")
+kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.small_cuts.gimp prm/small_cuts.prm
+  SET "Bodies/square/Basis = gimp" "Constants/shift = 3/8")
+kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm
+  SET "Stabilisation/Method = aggregation")
 kedge_add_scene_test(scene.translating_body.linear prm/translating_body.prm
   SET "Bodies/disc/Basis = linear")
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
@@ -64,6 +72,8 @@ kedge_add_scene_test(scene.falling_body.printed_newmark prm/falling_body.prm
 kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
   SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Newton/Log = true"
     "Mapping/Audit = true")
+kedge_add_restart_test(scene.restart.ghost prm/spinning_body.prm KILLS 1
+  SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Stabilisation/Method = ghost")
 kedge_add_restart_test(scene.restart.2ranks prm/quickstart.prm KILLS 2 RANKS 2
   SET "Time/End = 0.5" "Output/Checkpoint every steps = 5")
 

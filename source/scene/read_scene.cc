@@ -280,10 +280,26 @@ namespace kedge
       TransferParameters  transfer;
       transfer.velocity_mapping =
         section.text("Velocity") == "pic" ? VelocityUpdate::pic : VelocityUpdate::flip;
-      transfer.lumping          = section.number("Lumping");
-      transfer.smallest_filling = section.number("Smallest filling");
-      transfer.audit            = section.truth("Audit");
+      transfer.lumping = section.number("Lumping");
+      transfer.audit   = section.truth("Audit");
       return transfer;
+    }
+
+    StabilisationParameters
+    read_stabilisation(const ParameterReader &reader)
+    {
+      static const std::map<std::string, StabilisationKind> methods = {
+        {"aggregation", StabilisationKind::aggregation},
+        {"ghost", StabilisationKind::ghost},
+        {"none", StabilisationKind::none}};
+
+      const SectionReader     section(reader, {"Stabilisation"});
+      StabilisationParameters stabilisation;
+      stabilisation.method                 = methods.at(section.text("Method"));
+      stabilisation.smallest_filling       = section.number("Smallest filling");
+      stabilisation.ghost_mass_factor      = section.number("Ghost mass factor");
+      stabilisation.ghost_stiffness_factor = section.number("Ghost stiffness factor");
+      return stabilisation;
     }
 
 
@@ -387,6 +403,7 @@ namespace kedge
     scene.newton          = read_newton(reader);
     scene.linear_solver   = read_linear_solver(reader);
     scene.transfer        = read_mapping(reader);
+    scene.stabilisation   = read_stabilisation(reader);
     scene.output          = read_output(reader, scene.time);
     scene.probes          = read_probes<dim>(reader);
     scene.checks          = read_checks(reader, scene.time);

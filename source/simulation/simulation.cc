@@ -136,13 +136,15 @@ namespace kedge
     engine.accept_step();
     clock.advance();
     totals.external_work += engine.work_of_last_step();
+    totals.ghost_work += engine.ghost_work_of_last_step();
 
-    row.step              = clock.n_steps();
-    row.time              = clock.time();
-    row.newton_iterations = step.newton.iterations;
-    row.linear_iterations = step.newton.linear_iterations;
-    row.rejected_attempts = static_cast<unsigned int>(totals.rejected_pending);
-    row.external_work     = totals.external_work;
+    row.step                 = clock.n_steps();
+    row.time                 = clock.time();
+    row.newton_iterations    = step.newton.iterations;
+    row.linear_iterations    = step.newton.linear_iterations;
+    row.rejected_attempts    = static_cast<unsigned int>(totals.rejected_pending);
+    row.external_work        = totals.external_work;
+    row.stabilisation_energy = totals.ghost_work;
     engine.write_books(row);
     row.energy_error = row.total_energy() + row.plastic_dissipation + row.stabilisation_energy -
                        totals.initial_energy - row.external_work;

@@ -363,7 +363,7 @@ namespace kedge
 
   template <int dim>
   void
-  EquationSystem<dim>::fill(const ActiveNodes<dim> &nodes, NodeMatrix<dim> &matrix)
+  EquationSystem<dim>::fill(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &matrix)
   {
     const std::vector<double> *values = &matrix.values();
     std::vector<double>        summed;
