@@ -269,13 +269,15 @@ namespace kedge
           {{"Scheme",
             "clc-midpoint",
             allow.one_of({"quasi-static",
+                          "clc-quasi-static",
                           "clc-midpoint",
                           "midpoint",
                           "trapezoidal",
                           "newmark",
                           "generalised-alpha"}),
             "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
-            "only counts the load."},
+            "only counts the load. clc-quasi-static balances the middle of the step instead of "
+            "its end, so that the energy books close."},
            {"Start", "0", allow.number(), "When the run starts [s]."},
            {"End", required, allow.number(), "When it ends [s]."},
            {"Step",

@@ -277,6 +277,7 @@ namespace kedge
     {
       static const std::map<std::string, SchemeKind> schemes = {
         {"quasi-static", SchemeKind::quasi_static},
+        {"clc-quasi-static", SchemeKind::clc_quasi_static},
         {"clc-midpoint", SchemeKind::clc_midpoint},
         {"midpoint", SchemeKind::midpoint},
         {"trapezoidal", SchemeKind::trapezoidal},

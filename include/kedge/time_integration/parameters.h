@@ -9,6 +9,7 @@ namespace kedge
   enum class SchemeKind
   {
     quasi_static,
+    clc_quasi_static,
     clc_midpoint,
     midpoint,
     trapezoidal,
