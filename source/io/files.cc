@@ -59,14 +59,15 @@ namespace kedge
 
 
   void
-  replace_file(const std::filesystem::path &file, const std::string &content)
+  replace_file(const std::filesystem::path &file, const std::string &content, const OnDisk when)
   {
     std::filesystem::path temporary = file;
     temporary += ".new";
     try
       {
         write_file(temporary, content);
-        flush_to_disk(temporary);
+        if (when == OnDisk::now)
+          flush_to_disk(temporary);
         if (::rename(temporary.c_str(), file.c_str()) != 0)
           fail("replace", file);
       }
@@ -76,7 +77,8 @@ namespace kedge
         std::filesystem::remove(temporary, ignored);
         throw;
       }
-    flush_to_disk(file.has_parent_path() ? file.parent_path() : ".");
+    if (when == OnDisk::now)
+      flush_to_disk(file.has_parent_path() ? file.parent_path() : ".");
   }
 
 

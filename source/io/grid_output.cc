@@ -78,6 +78,15 @@ namespace kedge
 
 
 
+  template <int dim>
+  void
+  GridOutput<dim>::flush() const
+  {
+    pvd.flush();
+  }
+
+
+
   template class GridOutput<2>;
   template class GridOutput<3>;
 } // namespace kedge

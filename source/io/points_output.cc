@@ -248,6 +248,18 @@ namespace kedge
 
 
 
+  template <int dim>
+  void
+  PointsOutput<dim>::flush() const
+  {
+    if (pvd)
+      pvd->flush();
+    if (xdmf)
+      xdmf->flush();
+  }
+
+
+
   template class PointsOutput<2>;
   template class PointsOutput<3>;
 } // namespace kedge

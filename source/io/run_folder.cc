@@ -28,7 +28,7 @@ namespace kedge
     is_output_of_kedge(const std::string &name)
     {
       static const std::regex names(
-        "(history|probes|transfer_audit)\\.csv|(points|grid)\\.pvd|points\\.xdmf|summary\\.json|"
+        "(history|probes|newton|transfer_audit)\\.csv|(points|grid)\\.pvd|points\\.xdmf|summary\\.json|"
         "parameters\\.prm|log\\.txt|"
         "(points/points|grid/grid)-[0-9]+(\\.[0-9]+)?\\.(vtu|pvtu|h5)|"
         "checkpoint/(state|unfinished)-[0-9]+/(manifest\\.txt|rank-[0-9]+\\.bin)");

@@ -98,6 +98,8 @@ namespace kedge
     json.add("newton_iterations", summary.n_newton_iterations);
     json.add("linear_iterations", summary.n_linear_iterations);
     json.add("rejected_attempts", summary.n_rejected_attempts);
+    if (summary.largest_condition_estimate > 0.)
+      json.add("largest_condition_estimate", summary.largest_condition_estimate);
     json.add("wall_seconds", summary.wall_seconds);
     json.add("cpu_seconds", summary.cpu_seconds);
     add_map(json, "phase_wall_seconds", summary.phase_wall_seconds);

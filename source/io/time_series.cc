@@ -82,7 +82,18 @@ namespace kedge
   {
     run_on_root(folder.communicator(), [&]() {
       entries.push_back({exact_text(time), entry});
-      replace_file(folder.path(name), document());
+      replace_file(folder.path(name), document(), OnDisk::later);
+    });
+  }
+
+
+
+  void
+  TimeSeries::flush() const
+  {
+    run_on_root(folder.communicator(), [&]() {
+      if (std::filesystem::exists(folder.path(name)))
+        flush_to_disk(folder.path(name));
     });
   }
 

@@ -262,6 +262,8 @@ namespace kedge
         fraction.upper = 1;
         Range beta     = Range::positive();
         beta.upper     = 0.5;
+        Range growth;
+        growth.lower = 1;
         return {
           "Time",
           "From when to when, in which steps, by which scheme.",
@@ -290,6 +292,15 @@ namespace kedge
             "1/1024",
             allow.number(factor),
             "A step that does not converge is cut; below this fraction of Step the run stops [-]."},
+           {"Adapt step",
+            "false",
+            allow.truth(),
+            "Whether a step that took 10 Newton iterations or more makes the next one smaller, and "
+            "only three in a row that took 5 or fewer let it grow."},
+           {"Largest step factor",
+            "1",
+            allow.number(growth),
+            "How far Adapt step may let steps grow beyond Step, in powers of two [-]."},
            {"Break times", "", allow.numbers().or_empty(), "Times at which a step must end [s]."},
            {"Newmark beta", "0.25", allow.number(beta), "Of the scheme newmark [-]."},
            {"Newmark gamma", "0.5", allow.number(fraction), "Of the scheme newmark [-]."},

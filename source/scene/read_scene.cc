@@ -297,6 +297,9 @@ namespace kedge
       (kind == StepSizeKind::fixed ? time.step : time.cfl_factor) = value;
       time.minimum_step_factor = section.number("Smallest step factor");
 
+      time.adapt_step          = section.truth("Adapt step");
+      time.maximum_step_factor = section.number("Largest step factor");
+
       time.break_times = section.numbers("Break times");
       for (const double break_time : time.break_times)
         if (!(break_time > time.start && break_time <= time.end))

@@ -61,20 +61,19 @@ namespace kedge
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output);
     if (scene.output.grid)
       grid_output = std::make_unique<GridOutput<dim>>(folder);
-    if (scene.newton.log && folder.is_root())
-      newton_log = std::make_unique<CsvFile>(folder.path("newton.csv"),
-                                             std::vector<std::string>{"step",
-                                                                      "time",
-                                                                      "accepted",
-                                                                      "iteration",
-                                                                      "residual",
-                                                                      "correction"});
+    if (scene.newton.log)
+      newton_log = std::make_unique<NewtonLog>(folder);
+    if (engine.audits_transfer())
+      audit_writer = std::make_unique<AuditWriter<dim>>(folder);
 
     engine.initialise_accelerations(clock.time());
     engine.write_books(row);
     row.time                = clock.time();
+    row.time_step           = 0.;
+    row.wall_time           = wall_time();
     totals.initial_energy   = row.total_energy();
     totals.next_output_time = clock.time();
+    history->write(row);
     folder.log() << "kedge: " << (scene.title.empty() ? scene.name : scene.title) << "\n  "
                  << row.n_points << " material points in " << row.n_active_cells << " cells, "
                  << row.n_dofs << " unknowns, "
@@ -93,7 +92,7 @@ namespace kedge
     const TimeParameters &time = scene.time;
     if (time.step_kind == StepSizeKind::fixed)
       clock.set_nominal_step(time.step);
-    else if (time.step_kind != StepSizeKind::cfl_initial || clock.n_steps() == 0)
+    else
       clock.set_nominal_step(time.cfl_factor * engine.cfl_step(time.step_kind));
   }
 
@@ -135,7 +134,7 @@ namespace kedge
   {
     row.time_step = clock.step_size();
     engine.accept_step();
-    clock.advance();
+    clock.advance(step.newton.iterations);
     totals.external_work += engine.work_of_last_step();
 
     row.step              = clock.n_steps();
@@ -151,20 +150,15 @@ namespace kedge
     totals.rejected_pending = 0;
     totals.points_times_steps += static_cast<double>(row.n_points) * step.newton.iterations;
 
-    const double begin = MPI_Wtime();
+    const Stopwatch stopwatch(output_time);
     if (newton_log)
-      for (unsigned int k = 0; k < step.newton.residual_norms.size(); ++k)
-        {
-          *newton_log << row.step << row.time << std::uint64_t(1) << std::uint64_t(k)
-                      << step.newton.residual_norms[k]
-                      << (k == 0 ? 0. : step.newton.correction_norms[k - 1]);
-          newton_log->end_row();
-        }
+      newton_log->write(row.step, row.time, true, step.newton);
+    if (audit_writer)
+      audit_writer->write(row.step, row.time, *engine.transfer_audit());
     history->write(row);
     write_probes();
     write_points(false);
     progress.report(row);
-    output_seconds += MPI_Wtime() - begin;
   }
 
 
@@ -175,6 +169,8 @@ namespace kedge
   {
     ++totals.rejected;
     ++totals.rejected_pending;
+    if (newton_log)
+      newton_log->write(clock.n_steps() + 1, clock.next_time(), false, step.newton);
     const double size = clock.step_size();
     const bool   cut  = !step.hopeless && clock.cut_step();
     folder.log() << "  step of " << size << " s at t = " << clock.time()
@@ -195,35 +191,41 @@ namespace kedge
     progress.finish(row);
     if (finished)
       write_points(true);
-    if (finished && (scene.output.checkpoint_every_steps > 0))
+    if (status == "numerical_stop" || (finished && scene.output.checkpoint_every_steps > 0))
       write_checkpoint();
 
     RunSummary summary;
     if (finished)
       summary.checks =
         evaluate_checks<dim>(scene.checks, folder, engine.points().records(), scene.constants);
-    summary.versions            = software_versions();
-    summary.scene               = scene.name;
-    summary.title               = scene.title;
-    summary.status              = status;
-    summary.reason              = reason;
-    summary.dim                 = dim;
-    summary.n_ranks             = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    summary.counts              = {{"material_points", row.n_points},
-                                   {"active_cells", row.n_active_cells},
-                                   {"dofs", row.n_dofs}};
-    summary.n_steps             = clock.n_steps();
-    summary.n_newton_iterations = totals.newton;
-    summary.n_linear_iterations = totals.linear;
-    summary.n_rejected_attempts = totals.rejected;
-    summary.wall_seconds        = wall_time();
-    summary.cpu_seconds         = cpu_seconds(communicator);
-    summary.phase_wall_seconds  = engine.phase_seconds();
-    double in_steps             = 0.;
-    for (const auto &phase : summary.phase_wall_seconds)
-      in_steps += phase.second;
-    summary.phase_wall_seconds["output"] = output_seconds;
-    summary.peak_memory_bytes            = peak_memory(communicator);
+    summary.versions                   = software_versions();
+    summary.scene                      = scene.name;
+    summary.title                      = scene.title;
+    summary.status                     = status;
+    summary.reason                     = reason;
+    summary.dim                        = dim;
+    summary.n_ranks                    = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    summary.counts                     = {{"material_points", row.n_points},
+                                          {"active_cells", row.n_active_cells},
+                                          {"dofs", row.n_dofs}};
+    summary.n_steps                    = clock.n_steps();
+    summary.n_newton_iterations        = totals.newton;
+    summary.n_linear_iterations        = totals.linear;
+    summary.n_rejected_attempts        = totals.rejected;
+    summary.largest_condition_estimate = engine.largest_condition();
+    summary.wall_seconds               = wall_time();
+    summary.cpu_seconds                = cpu_seconds(communicator);
+    auto   phases                      = engine.phase_times();
+    double in_steps                    = 0.;
+    for (const auto &phase : phases)
+      in_steps += phase.second.wall;
+    phases["output"] = output_time;
+    for (const auto &[name, time] : phases)
+      {
+        summary.phase_wall_seconds[name] = time.wall;
+        summary.phase_cpu_seconds[name]  = dealii::Utilities::MPI::sum(time.cpu, communicator);
+      }
+    summary.peak_memory_bytes = peak_memory(communicator);
     if (in_steps > 0.)
       summary.point_updates_per_second = totals.points_times_steps / in_steps;
     summary.final_row = row;

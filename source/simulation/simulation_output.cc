@@ -7,7 +7,8 @@ namespace kedge
   {
     /**
      * What must agree between a checkpoint and the scene that resumes it: all
-     * parameters but those of output and the end of the run.
+     * parameters but those of output, the end of the run, and what one changes
+     * to go on after a stop at the step floor.
      */
     std::string
     physics_of(const std::string &parameters)
@@ -23,9 +24,10 @@ namespace kedge
           const std::string word = line.substr(first);
           if (word == "subsection Output" || word == "subsection Checks")
             in_output = true;
-          const bool is_end_time =
-            word.rfind("set End ", 0) == 0 || word.rfind("set Title ", 0) == 0;
-          if (!in_output && !is_end_time)
+          bool may_change = in_output;
+          for (const char *name : {"End", "Title", "Step", "Smallest step factor", "Iterations"})
+            may_change = may_change || word.rfind("set " + std::string(name) + " ", 0) == 0;
+          if (!may_change)
             result += word + "\n";
           if (in_output && first == 0 && word == "end")
             in_output = false;
@@ -176,6 +178,9 @@ namespace kedge
   {
     if (last_checkpoint_step == clock.n_steps())
       return;
+    points_output->flush();
+    if (grid_output)
+      grid_output->flush();
     CheckpointData<dim> data;
     data.scene_fingerprint = fingerprint(physics_of(scene.parameters));
     data.n_ranks           = dealii::Utilities::MPI::n_mpi_processes(communicator);
@@ -193,8 +198,11 @@ namespace kedge
                               {"newton", totals.newton},
                               {"linear", totals.linear},
                               {"rejected", totals.rejected},
+                              {"rejected_pending", totals.rejected_pending},
                               {"history_position", history->position()},
                               {"probes_position", probes->position()},
+                              {"newton_position", newton_log ? newton_log->position() : 0},
+                              {"audit_position", audit_writer ? audit_writer->position() : 0},
                               {"points_written", points_output->n_written()},
                               {"last_points_step", last_points_step.value_or(0)},
                               {"grid_written", grid_output ? grid_output->n_written() : 0}};
@@ -244,19 +252,23 @@ namespace kedge
     totals.newton             = data.counters.at("newton");
     totals.linear             = data.counters.at("linear");
     totals.rejected           = data.counters.at("rejected");
+    totals.rejected_pending   = data.counters.at("rejected_pending");
     last_checkpoint_step      = clock.n_steps();
     last_checkpoint_wall      = wall_time();
 
     const auto n_points_written = static_cast<unsigned int>(data.counters.at("points_written"));
     if (n_points_written > 0)
       last_points_step = data.counters.at("last_points_step");
-    history       = std::make_unique<HistoryWriter>(folder,
-                                              columns(),
-                                              data.counters.at("history_position"));
+    history =
+      std::make_unique<HistoryWriter>(folder, columns(), data.counters.at("history_position"));
     probes        = std::make_unique<ProbeWriter<dim>>(folder,
                                                 find_probes(),
                                                 data.counters.at("probes_position"));
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output, n_points_written);
+    if (scene.newton.log)
+      newton_log = std::make_unique<NewtonLog>(folder, data.counters.at("newton_position"));
+    if (engine.audits_transfer())
+      audit_writer = std::make_unique<AuditWriter<dim>>(folder, data.counters.at("audit_position"));
     if (scene.output.grid)
       grid_output = std::make_unique<GridOutput<dim>>(folder,
                                                       static_cast<unsigned int>(

@@ -34,6 +34,21 @@ namespace kedge
       return result;
     }
 
+    /** What to change if bodies have too few points to hold their nodes; else empty. */
+    template <int dim>
+    std::string
+    hint_on_points(const Scene<dim> &scene)
+    {
+      for (const auto &body : scene.bodies)
+        for (const unsigned int n : body.points_per_cell)
+          if (n < 2)
+            return "; body '" + body.name +
+                   "' has one material point per cell in some direction, which cannot hold all "
+                   "motions of its nodes: take two or more (Points per cell), or damp them "
+                   "(Mapping/Lumping > 0)";
+      return "";
+    }
+
     template <int dim>
     std::vector<std::string>
     names_of_bodies(const Scene<dim> &scene)
@@ -87,32 +102,41 @@ namespace kedge
   {
     if (activated)
       return;
-    const double begin = MPI_Wtime();
+    {
+      const Stopwatch stopwatch(phases["activation"]);
+      find_nodes();
+    }
+    const Stopwatch stopwatch(phases["transfer"]);
+    if (scheme.dynamic)
+      {
+        assemble_mass(step_points, background.window(), nodes, mass);
+        blend_mass(scene.transfer.lumping, mass, nodes.n_local());
+        mapping.reinit(background, nodes, conditions, ties, mass, new_pattern);
+      }
+    activated = true;
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::find_nodes()
+  {
     step_points.reinit(background, cloud, basis_of_body, with_history);
     auto reached = step_points.reached_nodes(background.window());
     ties.find(background, step_points, scene.transfer.smallest_filling, reached);
     const bool new_nodes = nodes.reinit(background, reached);
-    const bool changed   = new_nodes || ties.changed();
+    new_pattern          = new_nodes || ties.changed();
     if (new_nodes)
       {
         conditions.reinit(background, nodes);
         if (scheme.dynamic)
           mass.reinit(nodes.n_local(), 1, stencil_radius);
       }
-    if (changed)
+    if (new_pattern)
       ties.localise(nodes, conditions);
-    problem.reinit(background, nodes, conditions, ties, step_points, mass, stencil_radius, changed);
-    const double middle = MPI_Wtime();
-    seconds["activation"] += middle - begin;
-
-    if (scheme.dynamic)
-      {
-        assemble_mass(step_points, background.window(), nodes, mass);
-        blend_mass(scene.transfer.lumping, mass, nodes.n_local());
-        mapping.reinit(background, nodes, conditions, ties, mass, changed);
-      }
-    seconds["transfer"] += MPI_Wtime() - middle;
-    activated = true;
+    problem
+      .reinit(background, nodes, conditions, ties, step_points, mass, stencil_radius, new_pattern);
   }
 
 
@@ -126,31 +150,35 @@ namespace kedge
     step_dt = dt;
     activate();
 
-    double             begin  = MPI_Wtime();
-    const LinearStatus mapped = particle_to_grid(t, dt);
-    if (!mapped.success)
-      {
-        report.hopeless = true;
-        report.cause    = "the mass matrix cannot be solved: " + mapped.cause;
-        return report;
-      }
-    apply_external_forces(scheme.load_time(t, dt));
-    // u = 0 as in (3.184): the velocities of the points hold more than a smooth motion
-    nodal.displacement.assign(std::size_t(nodes.n_local()) * dim, 0.);
-    seconds["transfer"] += MPI_Wtime() - begin;
+    {
+      const Stopwatch    stopwatch(phases["transfer"]);
+      const LinearStatus mapped = particle_to_grid(t, dt);
+      if (!mapped.success)
+        {
+          report.hopeless = true;
+          report.cause    = "the mass matrix cannot be solved: " + mapped.cause;
+          return report;
+        }
+      apply_external_forces(scheme.load_time(t, dt));
+      // u = 0 as in (3.184): the velocities of the points hold more than a smooth motion
+      nodal.displacement.assign(std::size_t(nodes.n_local()) * dim, 0.);
+    }
 
     problem.start(nodal, t, dt);
     report.newton = solve_newton(problem, scene.newton);
     report.cause  = report.newton.cause;
-    if (!report.newton.converged && !problem.warning().empty())
-      report.cause += "; " + problem.warning();
     if (!report.newton.converged)
-      return report;
+      {
+        const std::string diagnosis = problem.diagnosis();
+        if (!diagnosis.empty())
+          report.cause += "; " + diagnosis;
+        report.cause += hint_on_points(scene);
+        return report;
+      }
 
-    begin           = MPI_Wtime();
+    const Stopwatch stopwatch(phases["history update"]);
     report.cause    = check_points();
     report.accepted = report.cause.empty();
-    seconds["history update"] += MPI_Wtime() - begin;
     return report;
   }
 
@@ -287,10 +315,10 @@ namespace kedge
 
 
   template <int dim>
-  std::map<std::string, double>
-  StepEngine<dim>::phase_seconds() const
+  std::map<std::string, PhaseTime>
+  StepEngine<dim>::phase_times() const
   {
-    auto result            = seconds;
+    auto result            = phases;
     result["residual"]     = problem.timings().residual;
     result["tangent"]      = problem.timings().tangent;
     result["linear solve"] = problem.timings().linear_solve;

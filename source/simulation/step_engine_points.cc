@@ -156,11 +156,56 @@ namespace kedge
 
   template <int dim>
   void
+  StepEngine<dim>::map_velocities_back()
+  {
+    const auto         &window = background.window();
+    const bool          flip   = scene.transfer.velocity_mapping == VelocityUpdate::flip;
+    std::vector<double> v_end(nodal.displacement.size()), change(v_end.size()), a_end;
+    for (std::size_t i = 0; i < v_end.size(); ++i)
+      {
+        v_end[i]  = scheme.end_velocity(nodal.displacement[i],
+                                       nodal.velocity_n[i],
+                                       nodal.acceleration_n[i],
+                                       step_dt);
+        change[i] = v_end[i] - nodal.velocity_n[i];
+      }
+    interpolate_to_points(step_points, window, nodes, flip ? change : v_end, velocity_changes);
+    if (scheme.carries_acceleration)
+      {
+        a_end.resize(v_end.size());
+        for (std::size_t i = 0; i < v_end.size(); ++i)
+          a_end[i] = scheme.end_acceleration(nodal.displacement[i],
+                                             nodal.velocity_n[i],
+                                             nodal.acceleration_n[i],
+                                             step_dt);
+        interpolate_to_points(step_points, window, nodes, a_end, accelerations);
+      }
+    if (!scene.transfer.audit)
+      return;
+    auto velocities = velocity_changes;
+    if (flip)
+      for (unsigned int slot = 0; slot < step_points.size(); ++slot)
+        velocities[slot] += step_points.velocity[slot];
+    audit = audit_transfer(background,
+                           nodes,
+                           step_points,
+                           velocities,
+                           mass,
+                           scene.transfer.lumping,
+                           scene.transfer.velocity_mapping,
+                           nodal.velocity_n,
+                           v_end,
+                           nodal.displacement);
+  }
+
+
+
+  template <int dim>
+  void
   StepEngine<dim>::accept_step()
   {
-    const double begin  = MPI_Wtime();
-    const auto  &window = background.window();
-    double       work   = 0.;
+    const Stopwatch stopwatch(phases["history update"]);
+    double          work = 0.;
     if (!loads.empty())
       {
         // over the step a load does the work of its value in the middle
@@ -173,30 +218,7 @@ namespace kedge
       step_work += problem.reaction_work();
 
     if (scheme.dynamic)
-      {
-        std::vector<double> v_end(nodal.displacement.size()), change(v_end.size()), a_end;
-        for (std::size_t i = 0; i < v_end.size(); ++i)
-          {
-            v_end[i]  = scheme.end_velocity(nodal.displacement[i],
-                                           nodal.velocity_n[i],
-                                           nodal.acceleration_n[i],
-                                           step_dt);
-            change[i] = v_end[i] - nodal.velocity_n[i];
-          }
-        const bool flip = scene.transfer.velocity_mapping == VelocityUpdate::flip;
-        interpolate_to_points(step_points, window, nodes, flip ? change : v_end, velocity_changes);
-        if (scheme.carries_acceleration)
-          {
-            a_end.resize(v_end.size());
-            for (std::size_t i = 0; i < v_end.size(); ++i)
-              a_end[i] = scheme.end_acceleration(nodal.displacement[i],
-                                                 nodal.velocity_n[i],
-                                                 nodal.acceleration_n[i],
-                                                 step_dt);
-            interpolate_to_points(step_points, window, nodes, a_end, accelerations);
-          }
-      }
-
+      map_velocities_back();
     cloud.update_each(
       [&](const unsigned int number, dealii::Point<dim> &location, PointState<dim> &state) {
         const unsigned int slot = step_points.slot_of[number];
@@ -208,7 +230,6 @@ namespace kedge
       });
     follow_points();
     activated = false;
-    seconds["history update"] += MPI_Wtime() - begin;
   }
 
 

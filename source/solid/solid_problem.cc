@@ -4,25 +4,11 @@ namespace kedge
 {
   namespace
   {
-    /** Adds the wall time of its life to a sum. */
-    class Stopwatch
-    {
-    public:
-      explicit Stopwatch(double &sum)
-        : sum(sum)
-        , begin(MPI_Wtime())
-      {}
-      ~Stopwatch()
-      {
-        sum += MPI_Wtime() - begin;
-      }
-
-    private:
-      double      &sum;
-      const double begin;
-    };
     /** Raises the scaled diagonal of a singular tangent; Newton's residual stays exact. */
     constexpr double singular_shift = 1e-10;
+
+    /** A tangent worse than this may be why Newton's method fails. */
+    constexpr double suspicious_condition = 1e9;
   } // namespace
 
 
@@ -80,6 +66,8 @@ namespace kedge
     this->t_n   = t_n;
     this->dt    = dt;
     warning_.clear();
+    condition        = 0.;
+    weakest_equation = -1;
     diagonal.assign(equations.system().n_rows(), 0.);
     internal.resize(state.displacement.size());
     inertia.assign(state.displacement.size(), 0.);
@@ -222,6 +210,12 @@ namespace kedge
         warning_ = status.cause + describe_equation(status.equation);
         status   = linear_solver.factorise(equations.system(), singular_shift);
       }
+    else if (!keep_tangent && status.condition_estimate > condition)
+      {
+        condition          = status.condition_estimate;
+        weakest_equation   = status.weakest_equation;
+        largest_condition_ = std::max(largest_condition_, condition);
+      }
     if (status.success)
       status = linear_solver.solve(right_side, solution);
     if (!status.success)
@@ -257,6 +251,20 @@ namespace kedge
       if (status[i] == NodalStatus::prescribed)
         work += residual[i] * state->displacement[i];
     return dealii::Utilities::MPI::sum(work, nodes->communicator());
+  }
+
+
+
+  template <int dim>
+  std::string
+  SolidProblem<dim>::diagnosis() const
+  {
+    if (!warning_.empty() || condition < suspicious_condition)
+      return warning_;
+    std::ostringstream text;
+    text << std::scientific << std::setprecision(0) << "the tangent is nearly singular (condition "
+         << condition << ")" << describe_equation(weakest_equation);
+    return text.str();
   }
 
 

@@ -81,13 +81,24 @@ namespace kedge
           return LinearStatus::failure(cholesky ? "matrix not positive definite"
                                                 : "singular matrix",
                                        info - 1);
+        double       largest = 0., smallest = std::numeric_limits<double>::max();
+        LinearStatus status;
         for (int i = 0; i < n; ++i)
           {
             const double diagonal = band[std::size_t(i) * leading + top];
-            if (std::abs(cholesky ? diagonal * diagonal : diagonal) < smallest_pivot)
-              return LinearStatus::failure("matrix singular to working precision", i);
+            const double pivot    = std::abs(cholesky ? diagonal * diagonal : diagonal);
+            largest               = std::max(largest, pivot);
+            if (pivot < smallest)
+              {
+                smallest                = pivot;
+                status.weakest_equation = i;
+              }
           }
-        return {};
+        if (n > 0 && smallest < smallest_pivot)
+          return LinearStatus::failure("matrix singular to working precision",
+                                       status.weakest_equation);
+        status.condition_estimate = n > 0 ? largest / smallest : 1.;
+        return status;
       }
 
       LinearStatus

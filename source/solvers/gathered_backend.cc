@@ -18,13 +18,15 @@ namespace kedge
     LinearStatus
     agree(LinearStatus status, const MPI_Comm communicator, const int rank)
     {
-      std::int64_t message[2] = {status.success ? 1 : 0, status.equation};
-      MPI_Bcast(message, 2, MPI_INT64_T, 0, communicator);
+      std::int64_t message[3] = {status.success ? 1 : 0, status.equation, status.weakest_equation};
+      MPI_Bcast(message, 3, MPI_INT64_T, 0, communicator);
+      MPI_Bcast(&status.condition_estimate, 1, MPI_DOUBLE, 0, communicator);
       if (rank != 0)
         {
-          status.success  = message[0] == 1;
-          status.equation = message[1];
-          status.cause    = status.success ? "" : "singular or ill-conditioned matrix";
+          status.success          = message[0] == 1;
+          status.equation         = message[1];
+          status.weakest_equation = message[2];
+          status.cause            = status.success ? "" : "singular or ill-conditioned matrix";
         }
       return status;
     }

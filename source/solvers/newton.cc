@@ -17,6 +17,12 @@ namespace kedge
     /** A residual that has grown by this factor will not come back. */
     constexpr double divergence = 1e8;
 
+    /** Below this part of its terms a residual needs no polish: energy drifts by less. */
+    constexpr double polished = 1e-13;
+
+    /** Corrections with kept factors, at most; each costs a residual and a substitution. */
+    constexpr unsigned int most_polishes = 4;
+
     /** Corrections that are tried before the residual is asked to fall. */
     constexpr unsigned int free_corrections = 4;
 
@@ -35,28 +41,32 @@ namespace kedge
              norms[norms.size() - 1] > 0.5 * norms[norms.size() - 3];
     }
 
-    /** One correction with the last tangent, taken back if it does not help. */
-    void
+    /**
+     * One correction with the last tangent, taken back if it does not help.
+     *
+     * @return whether another one may help too
+     */
+    bool
     polish(NewtonProblem &problem, NewtonProblem::Evaluation &evaluation, NewtonReport &report)
     {
       double             norm   = 0.;
       const LinearStatus linear = problem.solve_correction(norm, true);
       report.linear_iterations += linear.iterations;
       if (!linear.success || !std::isfinite(norm))
-        return;
+        return false;
       problem.apply_correction(1.);
-      const NewtonProblem::Evaluation polished = problem.evaluate();
-      if (polished.ok && polished.residual_norm < evaluation.residual_norm)
-        {
-          evaluation = polished;
-          report.residual_norms.push_back(polished.residual_norm);
-          report.correction_norms.push_back(norm);
-        }
-      else
+      const NewtonProblem::Evaluation attempt = problem.evaluate();
+      if (!attempt.ok || attempt.residual_norm >= evaluation.residual_norm)
         {
           problem.apply_correction(-1.);
           problem.evaluate();
+          return false;
         }
+      const double gain = evaluation.residual_norm / attempt.residual_norm;
+      evaluation        = attempt;
+      report.residual_norms.push_back(attempt.residual_norm);
+      report.correction_norms.push_back(norm);
+      return gain > 4. && attempt.residual_norm > polished * attempt.scale;
     }
 
     std::string
@@ -148,8 +158,9 @@ namespace kedge
         if (product < parameters.tolerance * first_product || at_round_off())
           {
             report.converged = true;
-            if (!at_round_off())
-              polish(problem, evaluation, report);
+            for (unsigned int k = 0; k < most_polishes && !at_round_off(); ++k)
+              if (!polish(problem, evaluation, report))
+                break;
             return report;
           }
         if (evaluation.residual_norm > divergence * first_residual && report.iterations > 2)

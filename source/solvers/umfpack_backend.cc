@@ -6,6 +6,9 @@ namespace kedge
 {
   namespace
   {
+    /** From here on it is worth knowing which unknown is the weakest. */
+    constexpr double badly_conditioned = 1e10;
+
     /** Sparse LU from UMFPACK; the symbolic analysis is kept while the pattern lasts. */
     class UmfpackBackend : public GatheredBackend
     {
@@ -61,7 +64,11 @@ namespace kedge
                                        std::to_string(status) + ")");
         if (info[UMFPACK_RCOND] < smallest_pivot)
           return LinearStatus::failure("matrix singular to working precision", weakest_unknown());
-        return {};
+        LinearStatus result;
+        result.condition_estimate = 1. / info[UMFPACK_RCOND];
+        if (result.condition_estimate > badly_conditioned)
+          result.weakest_equation = weakest_unknown();
+        return result;
       }
 
       LinearStatus

@@ -1,26 +1,13 @@
 #include <kedge/transfer/equation_system.h>
 
+#include <algorithm>
+
 namespace kedge
 {
   namespace
   {
-    /** Local number of the node at a lattice offset from another, or -1. */
-    template <int dim>
-    int
-    neighbour(const LatticeWindow<dim> &window,
-              const ActiveNodes<dim>   &nodes,
-              LatticeIndex<dim>         node,
-              const LatticeIndex<dim>  &offset)
-    {
-      for (int d = 0; d < dim; ++d)
-        {
-          node[d] += offset[d];
-          if (node[d] < window.low[d] || node[d] > window.low[d] + window.n_cells[d])
-            return -1;
-        }
-      return nodes.local(window.node_number(node));
-    }
-  } // namespace
+    constexpr int exchange_tag = 4712;
+  }
 
 
 
@@ -49,6 +36,11 @@ namespace kedge
     for (std::int64_t e = 0; e < n_own; ++e)
       number[nodal_of_equation[e]] = system_.first_row + e;
     nodes.update_ghosts(number, n_components);
+
+    n_free.assign(nodes.n_local(), 0);
+    for (unsigned int i = 0; i < number.size(); ++i)
+      if (number[i] >= 0)
+        ++n_free[i / n_components];
   }
 
 
@@ -62,17 +54,17 @@ namespace kedge
     const unsigned int        width = matrix.n_slots() * n_components;
     std::vector<std::int64_t> columns(std::size_t(nodes.n_local()) * width, -1);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      {
-        const auto here = grid.window().node_index(nodes.window_node(i));
-        for (unsigned int s = 0; s < matrix.n_slots(); ++s)
-          {
-            const int j = neighbour<dim>(grid.window(), nodes, here, matrix.offset(s));
-            if (j >= 0)
-              for (unsigned int c = 0; c < n_components; ++c)
-                columns[std::size_t(i) * width + s * n_components + c] =
-                  number[std::size_t(j) * n_components + c];
-          }
-      }
+      for_neighbours(grid.window(),
+                     nodes,
+                     i,
+                     matrix,
+                     [&](const unsigned int slot, const unsigned int j) {
+                       for (unsigned int c = 0; c < n_components; ++c)
+                         columns[std::size_t(i) * width + slot * n_components + c] =
+                           number[std::size_t(j) * n_components + c];
+                     });
+    if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) == 1)
+      return columns;
     // what other ranks know of the neighbours of nodes owned here
     auto own = columns;
     nodes.send_to_owners(columns, width, [&](const unsigned int node, const std::int64_t *row) {
@@ -86,115 +78,231 @@ namespace kedge
 
 
   template <int dim>
-  std::vector<std::pair<std::int64_t, double>>
-  EquationSystem<dim>::expand(const NodeTies<dim>            &ties,
-                              const std::vector<NodalStatus> &status,
-                              const unsigned int              node,
-                              const unsigned int              component) const
+  std::int64_t
+  EquationSystem<dim>::first_equation(const unsigned int node) const
   {
-    const std::size_t                            i = std::size_t(node) * n_components + component;
-    std::vector<std::pair<std::int64_t, double>> result;
-    if (status[i] == NodalStatus::free)
-      result.emplace_back(number[i], 1.);
-    else if (status[i] == NodalStatus::tied)
-      {
-        const auto &tie = ties.ties()[ties.tie_of(node)];
-        for (unsigned int k = 0; k < tie.roots.size(); ++k)
-          {
-            const std::size_t j = std::size_t(tie.roots[k]) * n_components + component;
-            if (number[j] >= 0)
-              result.emplace_back(number[j], tie.weights[k]);
-          }
-      }
-    return result;
+    for (unsigned int c = 0; c < n_components; ++c)
+      if (number[std::size_t(node) * n_components + c] >= 0)
+        return number[std::size_t(node) * n_components + c];
+    return -1;
   }
 
 
 
   template <int dim>
-  std::vector<typename EquationSystem<dim>::Contribution>
-  EquationSystem<dim>::tied_contributions(const BackgroundGrid<dim>      &grid,
-                                          const ActiveNodes<dim>         &nodes,
-                                          const NodeTies<dim>            &ties,
-                                          const std::vector<NodalStatus> &status,
-                                          const NodeMatrix<dim>          &matrix) const
+  void
+  EquationSystem<dim>::find_fed_nodes(const ActiveNodes<dim> &nodes)
   {
-    std::vector<Contribution> result;
-    if (ties.empty())
-      return result;
-    const auto is_tied = [&](const unsigned int node, const unsigned int c) {
-      return status[std::size_t(node) * n_components + c] == NodalStatus::tied;
-    };
-    const auto &window = grid.window();
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+    fed_nodes.clear();
+    places.clear();
+    mark.assign(nodes.n_local(), 0);
+    offset_of.resize(nodes.n_local());
+    const auto  &feeds   = tied_rows.feeds();
+    const auto   n_feeds = static_cast<unsigned int>(feeds.size());
+    unsigned int next    = 0;
+    for (unsigned int f = 0; f < n_feeds; f = next)
       {
-        const auto here = window.node_index(nodes.window_node(i));
-        for (unsigned int s = 0; s < matrix.n_slots(); ++s)
+        for (next = f; next < n_feeds && feeds[next].node == feeds[f].node;)
+          ++next;
+        if (n_free[feeds[f].node] > 0)
+          fed_nodes.push_back({feeds[f].node, f, next, 0, 0, 0});
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  EquationSystem<dim>::add_tied_blocks(const FedNode &fed, Blocks &blocks)
+  {
+    for (unsigned int f = fed.first_feed; f < fed.end_feed; ++f)
+      {
+        const auto &row = tied_rows.row(tied_rows.feeds()[f].row);
+        for (unsigned int c = row.first_column; c < row.end_column; ++c)
           {
-            const int j = neighbour<dim>(window, nodes, here, matrix.offset(s));
-            if (j < 0 || (ties.tie_of(i) < 0 && ties.tie_of(j) < 0))
+            const unsigned int node = tied_rows.column(c);
+            if (mark[node] == fed.node + 1)
               continue;
-            for (unsigned int p = 0; p < n_components; ++p)
-              for (unsigned int m = 0; m < n_components; ++m)
-                if (is_tied(i, p) || is_tied(j, m))
-                  {
-                    const std::size_t source =
-                      ((std::size_t(i) * n_components + p) * matrix.n_slots() + s) * n_components +
-                      m;
-                    for (const auto &[row, row_weight] : expand(ties, status, i, p))
-                      for (const auto &[column, column_weight] : expand(ties, status, j, m))
-                        result.push_back({row, column, source, row_weight * column_weight});
-                  }
+            mark[node] = fed.node + 1;
+            if (n_free[node] > 0)
+              blocks.push_back({first_equation(node), none, node, n_free[node]});
           }
       }
+  }
+
+
+
+  template <int dim>
+  void
+  EquationSystem<dim>::place_feeds(FedNode &fed, const Blocks &blocks)
+  {
+    fed.first_place = places.size();
+    fed.row_length  = 0;
+    for (const Block &block : blocks)
+      {
+        if (block.node != none)
+          offset_of[block.node] = fed.row_length;
+        fed.row_length += block.n_equations;
+      }
+    for (unsigned int f = fed.first_feed; f < fed.end_feed; ++f)
+      {
+        const auto &row = tied_rows.row(tied_rows.feeds()[f].row);
+        for (unsigned int c = row.first_column; c < row.end_column; ++c)
+          {
+            const unsigned int node = tied_rows.column(c);
+            places.push_back(n_free[node] > 0 ? offset_of[node] : none);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  EquationSystem<dim>::sort_and_merge(Blocks &blocks)
+  {
+    std::sort(blocks.begin(), blocks.end(), [](const Block &a, const Block &b) {
+      return a.first < b.first;
+    });
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+      if (n > 0 && blocks[n - 1].first == blocks[k].first)
+        {
+          blocks[n - 1].slot = std::min(blocks[n - 1].slot, blocks[k].slot);
+          blocks[n - 1].node = std::min(blocks[n - 1].node, blocks[k].node);
+        }
+      else
+        blocks[n++] = blocks[k];
+    blocks.resize(n);
+  }
+
+
+
+  template <int dim>
+  std::vector<typename EquationSystem<dim>::RemoteBlock>
+  EquationSystem<dim>::exchange_remote_rows(const BackgroundGrid<dim> &grid,
+                                            const ActiveNodes<dim>    &nodes)
+  {
+    outgoing_ranges.clear();
+    incoming_blocks.clear();
+    incoming_targets.clear();
+    std::map<unsigned int, std::vector<std::int64_t>> requests; // per node: row, n, n blocks
+    std::size_t                                       n_values = 0;
+    Blocks                                            blocks;
+    for (FedNode &fed : fed_nodes)
+      if (fed.node >= nodes.n_owned())
+        {
+          blocks.clear();
+          add_tied_blocks(fed, blocks);
+          sort_and_merge(blocks);
+          place_feeds(fed, blocks);
+          const unsigned int owner = grid.node_owner(nodes.window_node(fed.node));
+          fed.remote               = n_values;
+          n_values += std::size_t(fed.row_length) * n_free[fed.node];
+          auto &ranges = outgoing_ranges[owner];
+          ranges.insert(ranges.end(), {fed.remote, n_values});
+          auto &request = requests[owner];
+          request.push_back(first_equation(fed.node));
+          request.push_back(static_cast<std::int64_t>(blocks.size()));
+          for (const Block &block : blocks)
+            request.insert(request.end(), {block.first, block.n_equations});
+        }
+    remote_values.resize(n_values);
+    std::vector<RemoteBlock> result;
+    any_remote = false;
+    if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
+      any_remote = dealii::Utilities::MPI::logical_or(!requests.empty(), nodes.communicator());
+    if (!any_remote)
+      return result;
+    incoming_blocks = dealii::Utilities::MPI::some_to_some(nodes.communicator(), requests);
+    for (const auto &[rank, received] : incoming_blocks)
+      for (std::size_t k = 0; k < received.size(); k += 2 + 2 * received[k + 1])
+        for (std::int64_t b = 0; b < received[k + 1]; ++b)
+          result.push_back({received[k],
+                            {received[k + 2 + 2 * b],
+                             none,
+                             none,
+                             static_cast<unsigned int>(received[k + 3 + 2 * b])}});
+    std::stable_sort(result.begin(), result.end(), [](const auto &a, const auto &b) {
+      return a.row < b.row;
+    });
     return result;
   }
 
 
 
   template <int dim>
-  std::vector<std::pair<std::int64_t, std::int64_t>>
-  EquationSystem<dim>::share_contributions(const std::vector<Contribution> &contributions)
+  void
+  EquationSystem<dim>::build_rows(const ActiveNodes<dim>          &nodes,
+                                  const std::vector<std::int64_t> &columns,
+                                  const unsigned int               n_slots,
+                                  const std::vector<RemoteBlock>  &remote)
   {
-    own_additions.clear();
-    outgoing_additions.clear();
-    incoming_targets.clear();
-    std::vector<std::pair<std::int64_t, std::int64_t>> entries;
-    const std::int64_t                                 end =
-      system_.first_row + static_cast<std::int64_t>(nodal_of_equation.size());
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(system_.communicator);
-
-    std::vector<std::int64_t> first_rows(1, 0);
-    if (n_ranks > 1)
-      first_rows = dealii::Utilities::MPI::all_gather(system_.communicator, system_.first_row);
-    std::map<unsigned int, std::vector<std::pair<std::int64_t, std::int64_t>>> requests;
-    for (const Contribution &c : contributions)
-      if (c.row >= system_.first_row && c.row < end)
-        entries.emplace_back(c.row, c.column);
-      else
-        {
-          const auto owner = static_cast<unsigned int>(
-            std::upper_bound(first_rows.begin(), first_rows.end(), c.row) - first_rows.begin() - 1);
-          requests[owner].emplace_back(c.row, c.column);
-          outgoing_additions[owner].emplace_back(c.source, c.weight);
-        }
-    any_remote = false;
-    if (n_ranks > 1)
+    system_.row_start.assign(1, 0);
+    system_.column.clear();
+    entry_source.clear();
+    auto   from_others = remote.begin();
+    auto   fed         = fed_nodes.begin();
+    Blocks blocks;
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       {
-        any_remote = dealii::Utilities::MPI::logical_or(!requests.empty(), system_.communicator);
-        if (any_remote)
-          received_entries = dealii::Utilities::MPI::some_to_some(system_.communicator, requests);
-        else
-          received_entries.clear();
-        for (const auto &[rank, pairs] : received_entries)
+        if (n_free[i] == 0)
+          continue;
+        const std::int64_t *of_node = &columns[std::size_t(i) * n_slots * n_components];
+        blocks.clear();
+        for (unsigned int s = 0; s < n_slots; ++s)
           {
-            (void)rank;
-            entries.insert(entries.end(), pairs.begin(), pairs.end());
+            Block block{-1, s, none, 0};
+            for (unsigned int c = 0; c < n_components; ++c)
+              if (of_node[s * n_components + c] >= 0)
+                {
+                  if (block.n_equations++ == 0)
+                    block.first = of_node[s * n_components + c];
+                }
+            if (block.n_equations > 0)
+              blocks.push_back(block);
           }
+        const std::int64_t first = first_equation(i);
+        for (; from_others != remote.end() && from_others->row == first; ++from_others)
+          blocks.push_back(from_others->block);
+        const bool is_fed = fed != fed_nodes.end() && fed->node == i;
+        if (is_fed)
+          add_tied_blocks(*fed, blocks);
+        sort_and_merge(blocks);
+        if (is_fed)
+          place_feeds(*fed++, blocks);
+        add_rows(n_free[i], of_node, blocks);
       }
-    std::sort(entries.begin(), entries.end());
-    entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-    return entries;
+    system_.value.resize(system_.column.size());
+  }
+
+
+
+  template <int dim>
+  void
+  EquationSystem<dim>::add_rows(const unsigned int  n_rows,
+                                const std::int64_t *of_node,
+                                const Blocks       &blocks)
+  {
+    for (unsigned int q = 0; q < n_rows; ++q)
+      {
+        for (const Block &block : blocks)
+          if (block.slot == none)
+            for (unsigned int k = 0; k < block.n_equations; ++k)
+              {
+                system_.column.push_back(static_cast<int>(block.first + k));
+                entry_source.push_back(none);
+              }
+          else
+            for (unsigned int k = block.slot * n_components; k < (block.slot + 1) * n_components;
+                 ++k)
+              if (of_node[k] >= 0)
+                {
+                  system_.column.push_back(static_cast<int>(of_node[k]));
+                  entry_source.push_back(k);
+                }
+        system_.row_start.push_back(static_cast<std::int64_t>(system_.column.size()));
+      }
   }
 
 
@@ -212,6 +320,29 @@ namespace kedge
 
   template <int dim>
   void
+  EquationSystem<dim>::find_incoming_targets()
+  {
+    for (const auto &[rank, received] : incoming_blocks)
+      {
+        auto &targets = incoming_targets[rank];
+        for (std::size_t k = 0; k < received.size(); k += 2 + 2 * received[k + 1])
+          {
+            const auto         first  = received[k];
+            const unsigned int node   = nodal_of_equation[first - system_.first_row] / n_components;
+            const auto        *blocks = &received[k + 2];
+            for (unsigned int q = 0; q < n_free[node]; ++q)
+              for (std::int64_t b = 0; b < received[k + 1]; ++b)
+                for (std::int64_t c = 0; c < blocks[2 * b + 1]; ++c)
+                  targets.push_back(position(first + q, blocks[2 * b] + c));
+          }
+      }
+    incoming_blocks.clear();
+  }
+
+
+
+  template <int dim>
+  void
   EquationSystem<dim>::reinit(const BackgroundGrid<dim>      &grid,
                               const ActiveNodes<dim>         &nodes,
                               const NodeTies<dim>            &ties,
@@ -220,45 +351,12 @@ namespace kedge
   {
     n_components = matrix.n_components();
     number_equations(nodes, status);
-    const auto         columns       = neighbour_equations(grid, nodes, matrix);
-    const auto         contributions = tied_contributions(grid, nodes, ties, status, matrix);
-    const auto         through_ties  = share_contributions(contributions);
-    const unsigned int width         = matrix.n_slots() * n_components;
-
-    system_.row_start.assign(1, 0);
-    system_.column.clear();
-    entry_source.clear();
-    Row  row;
-    auto tied = through_ties.begin();
-    for (unsigned int e = 0; e < nodal_of_equation.size(); ++e)
-      {
-        const std::int64_t *of_node =
-          &columns[std::size_t(nodal_of_equation[e] / n_components) * width];
-        row.clear();
-        for (unsigned int k = 0; k < width; ++k)
-          if (of_node[k] >= 0)
-            row.emplace_back(static_cast<int>(of_node[k]), k);
-        for (; tied != through_ties.end() && tied->first == system_.first_row + e; ++tied)
-          row.emplace_back(static_cast<int>(tied->second), no_source);
-        std::sort(row.begin(), row.end()); // of equal columns the one with a source comes first
-        for (std::size_t k = 0; k < row.size(); ++k)
-          if (k == 0 || row[k].first != row[k - 1].first)
-            {
-              system_.column.push_back(row[k].first);
-              entry_source.push_back(row[k].second);
-            }
-        system_.row_start.push_back(system_.column.size());
-      }
-    system_.value.resize(system_.column.size());
-
-    const std::int64_t end = system_.first_row + static_cast<std::int64_t>(system_.n_rows());
-    for (const Contribution &c : contributions)
-      if (c.row >= system_.first_row && c.row < end)
-        own_additions.push_back({position(c.row, c.column), c.source, c.weight});
-    for (const auto &[rank, pairs] : received_entries)
-      for (const auto &[r, c] : pairs)
-        incoming_targets[rank].push_back(position(r, c));
-    received_entries.clear();
+    tied_rows.reinit(grid.window(), nodes, ties, status, matrix);
+    find_fed_nodes(nodes);
+    const auto remote  = exchange_remote_rows(grid, nodes);
+    const auto columns = neighbour_equations(grid, nodes, matrix);
+    build_rows(nodes, columns, matrix.n_slots(), remote);
+    find_incoming_targets();
   }
 
 
@@ -280,20 +378,100 @@ namespace kedge
       {
         const double *row = values->data() + nodal_of_equation[e] * width;
         for (std::int64_t k = system_.row_start[e]; k < system_.row_start[e + 1]; ++k)
-          system_.value[k] = entry_source[k] == no_source ? 0. : row[entry_source[k]];
+          system_.value[k] = entry_source[k] == none ? 0. : row[entry_source[k]];
       }
-    for (const Addition &addition : own_additions)
-      system_.value[addition.target] += addition.weight * matrix.values()[addition.source];
-    if (!any_remote)
-      return;
-    std::map<unsigned int, std::vector<double>> outgoing;
-    for (const auto &[rank, additions] : outgoing_additions)
-      for (const auto &[source, weight] : additions)
-        outgoing[rank].push_back(weight * matrix.values()[source]);
-    const auto incoming = dealii::Utilities::MPI::some_to_some(nodes.communicator(), outgoing);
-    for (const auto &[rank, received] : incoming)
-      for (std::size_t k = 0; k < received.size(); ++k)
-        system_.value[incoming_targets.at(rank)[k]] += received[k];
+    tied_rows.multiply(matrix);
+    std::fill(remote_values.begin(), remote_values.end(), 0.);
+    for (const FedNode &fed : fed_nodes)
+      add_fed_rows(fed, nodes.n_owned());
+    if (any_remote)
+      add_remote_rows();
+  }
+
+
+
+  template <int dim>
+  void
+  EquationSystem<dim>::add_fed_rows(const FedNode &fed, const unsigned int n_owned)
+  {
+    const unsigned int *place = places.data() + fed.first_place;
+    for (unsigned int f = fed.first_feed; f < fed.end_feed; ++f)
+      {
+        const auto        &feed      = tied_rows.feeds()[f];
+        const auto        &row       = tied_rows.row(feed.row);
+        const unsigned int n_columns = row.end_column - row.first_column;
+        double            *sums =
+          fed.node < n_owned
+                       ? &system_.value[system_.row_start[first_equation(fed.node) - system_.first_row]]
+                       : &remote_values[fed.remote];
+        for (unsigned int p = 0; p < n_components; ++p)
+          {
+            if (number[std::size_t(fed.node) * n_components + p] < 0)
+              continue;
+            const double *value = tied_rows.values(row, p);
+            if ((row.components >> p) & 1u)
+              for (unsigned int c = 0; c < n_columns; ++c)
+                if (place[c] != none)
+                  {
+                    const std::size_t node   = tied_rows.column(row.first_column + c);
+                    double           *target = sums + place[c];
+                    for (unsigned int m = 0; m < n_components; ++m)
+                      if (number[node * n_components + m] >= 0)
+                        *target++ += feed.weight * value[c * n_components + m];
+                  }
+            sums += fed.row_length;
+          }
+        place += n_columns;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  EquationSystem<dim>::add_remote_rows()
+  {
+    std::vector<std::vector<double>> outgoing, incoming;
+    std::vector<MPI_Request>         requests;
+    outgoing.reserve(outgoing_ranges.size());
+    incoming.reserve(incoming_targets.size());
+    for (const auto &[rank, targets] : incoming_targets)
+      {
+        incoming.emplace_back(targets.size());
+        requests.emplace_back();
+        MPI_Irecv(incoming.back().data(),
+                  static_cast<int>(targets.size()),
+                  MPI_DOUBLE,
+                  static_cast<int>(rank),
+                  exchange_tag,
+                  system_.communicator,
+                  &requests.back());
+      }
+    for (const auto &[rank, ranges] : outgoing_ranges)
+      {
+        outgoing.emplace_back();
+        for (std::size_t k = 0; k < ranges.size(); k += 2)
+          outgoing.back().insert(outgoing.back().end(),
+                                 remote_values.begin() + ranges[k],
+                                 remote_values.begin() + ranges[k + 1]);
+        requests.emplace_back();
+        MPI_Isend(outgoing.back().data(),
+                  static_cast<int>(outgoing.back().size()),
+                  MPI_DOUBLE,
+                  static_cast<int>(rank),
+                  exchange_tag,
+                  system_.communicator,
+                  &requests.back());
+      }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    auto received = incoming.begin();
+    for (const auto &[rank, targets] : incoming_targets)
+      {
+        (void)rank;
+        for (std::size_t k = 0; k < targets.size(); ++k)
+          system_.value[targets[k]] += (*received)[k];
+        ++received;
+      }
   }
 
 

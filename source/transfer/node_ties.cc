@@ -49,6 +49,44 @@ namespace kedge
       return filling;
     }
 
+    /**
+     * Which bodies reach each node of the window: bit b modulo 64 for body b;
+     * empty if there is only one body (collective).
+     */
+    template <int dim>
+    std::vector<std::uint64_t>
+    bodies_at_nodes(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points)
+    {
+      unsigned int n_bodies = 0;
+      for (const auto &batch : points.batches)
+        n_bodies = std::max(n_bodies, batch.body + 1);
+      const bool many_ranks = dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1;
+      if (many_ranks)
+        n_bodies = dealii::Utilities::MPI::max(n_bodies, grid.communicator());
+      if (n_bodies < 2)
+        return {};
+      std::vector<std::uint64_t> bodies(grid.window().n_nodes_total(), 0);
+      const auto                 strides = grid.window().node_strides();
+      for (const auto &batch : points.batches)
+        for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+          for (int k = 0; k < (dim == 3 ? stencil_width(batch.pattern, 2) : 1); ++k)
+            for (int j = 0; j < stencil_width(batch.pattern, 1); ++j)
+              {
+                std::uint64_t *row = &bodies[points.stencil[slot].first_node + j * strides[1] +
+                                             (dim == 3 ? k * strides[dim - 1] : 0)];
+                for (int i = 0; i < stencil_width(batch.pattern, 0); ++i)
+                  row[i] |= std::uint64_t(1) << (batch.body % 64);
+              }
+      if (many_ranks)
+        MPI_Allreduce(MPI_IN_PLACE,
+                      bodies.data(),
+                      static_cast<int>(bodies.size()),
+                      MPI_UINT64_T,
+                      MPI_BOR,
+                      grid.communicator());
+      return bodies;
+    }
+
     /** Calls visit(cell) for all cells within @p ring cells of a node. */
     template <int dim, typename Visit>
     void
@@ -88,13 +126,14 @@ namespace kedge
 
 
   template <int dim>
-  bool
-  NodeTies<dim>::tie_to_nearest_cell(const LatticeWindow<dim>  &window,
-                                     const std::vector<double> &filling,
-                                     const double               threshold,
-                                     Tie                       &tie) const
+  std::vector<LatticeIndex<dim>>
+  NodeTies<dim>::nearest_cells(const LatticeWindow<dim>         &window,
+                               const std::vector<double>        &filling,
+                               const double                      threshold,
+                               const std::vector<std::uint64_t> &bodies,
+                               const unsigned int                tied_node) const
   {
-    const auto                     node = window.node_index(tie.node);
+    const auto                     node = window.node_index(tied_node);
     std::vector<LatticeIndex<dim>> nearest;
     for (int ring = nearest_ring; ring <= farthest_ring && nearest.empty(); ++ring)
       {
@@ -105,15 +144,40 @@ namespace kedge
             distance += (2 * (node[d] - cell[d]) - 1) * (2 * (node[d] - cell[d]) - 1);
           if (distance > best)
             return;
+          std::uint64_t shared = bodies.empty() ? 1 : bodies[tied_node];
           for (unsigned int v = 0; v < (1u << dim); ++v)
-            if (filling[corner<dim>(window, cell, v)] < threshold)
-              return;
+            {
+              const unsigned int root = corner<dim>(window, cell, v);
+              if (filling[root] < threshold)
+                return;
+              if (!bodies.empty())
+                shared &= bodies[root];
+            }
+          if (shared == 0)
+            return;
           if (distance < best)
             nearest.clear();
           best = distance;
           nearest.push_back(cell);
         });
       }
+    return nearest;
+  }
+
+
+
+  template <int dim>
+  bool
+  NodeTies<dim>::tie_to_nearest_cell(const LatticeWindow<dim>         &window,
+                                     const std::vector<double>        &filling,
+                                     const double                      threshold,
+                                     const std::vector<std::uint64_t> &bodies,
+                                     Tie                              &tie) const
+  {
+    const auto node    = window.node_index(tie.node);
+    auto       nearest = nearest_cells(window, filling, threshold, bodies, tie.node);
+    if (nearest.empty() && !bodies.empty()) // none that a body of this node fills
+      nearest = nearest_cells(window, filling, threshold, {}, tie.node);
     // cells at the same distance share the tie, so that symmetry is kept
     std::map<unsigned int, double> weights;
     for (const auto &cell : nearest)
@@ -150,6 +214,7 @@ namespace kedge
     if (threshold > 0.)
       {
         const std::vector<double> filling = nodal_filling(grid, points, reached);
+        const auto                bodies  = bodies_at_nodes(grid, points);
         const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
         // the owner of a tied node must know it too, even if none of its points reach it
         for (unsigned int node = 0; node < reached.size(); ++node)
@@ -157,7 +222,7 @@ namespace kedge
               (reached[node] || grid.node_owner(node) == rank))
             {
               Tie tie{node, {}, {}, 0};
-              if (tie_to_nearest_cell(grid.window(), filling, threshold, tie))
+              if (tie_to_nearest_cell(grid.window(), filling, threshold, bodies, tie))
                 window_ties.push_back(std::move(tie));
             }
         for (const Tie &tie : window_ties)

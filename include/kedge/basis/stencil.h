@@ -50,7 +50,7 @@ namespace kedge
    * vanishing mass (and the noise they bring) out of the system, while the
    * basis stays a partition of unity that reproduces linear fields exactly.
    */
-  constexpr double gimp_smallest_overlap = 1e-4;
+  constexpr double gimp_smallest_overlap = 1e-6;
 
   /**
    * The stencil of the original MPM: the linear functions (3.108) of the cell

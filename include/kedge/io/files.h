@@ -6,14 +6,23 @@
 
 namespace kedge
 {
+  /** When a file must have reached the disk: before a power cut can lose it, or not. */
+  enum class OnDisk
+  {
+    now,
+    later
+  };
+
   /**
    * Replaces @p file by @p content so that whoever reads it, at any moment
    * and after a kill at any moment, finds either the old or the new text:
-   * a temporary file beside it, fsync, rename. Throws UserError with the
-   * system's reason.
+   * a temporary file beside it, fsync (unless it may be on the disk later),
+   * rename. Throws UserError with the system's reason.
    */
   void
-  replace_file(const std::filesystem::path &file, const std::string &content);
+  replace_file(const std::filesystem::path &file,
+               const std::string           &content,
+               const OnDisk                 when = OnDisk::now);
 
   /** Writes a file from its beginning. Throws UserError with the system's reason. */
   void

@@ -40,6 +40,10 @@ namespace kedge
     unsigned int
     n_written() const;
 
+    /** Forces the index files to the disk. Collective. */
+    void
+    flush() const;
+
   private:
     const RunFolder &folder;
     unsigned int     n_done;

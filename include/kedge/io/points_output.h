@@ -39,6 +39,10 @@ namespace kedge
     unsigned int
     n_written() const;
 
+    /** Forces the index files to the disk. Collective. */
+    void
+    flush() const;
+
   private:
     void
     write_vtu(const double time, const std::vector<PointRecord<dim>> &local_points);

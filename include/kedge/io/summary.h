@@ -26,10 +26,11 @@ namespace kedge
 
     std::map<std::string, std::uint64_t> counts; ///< points, active cells, dofs ..
 
-    std::uint64_t n_steps             = 0;
-    std::uint64_t n_newton_iterations = 0;
-    std::uint64_t n_linear_iterations = 0;
-    std::uint64_t n_rejected_attempts = 0;
+    std::uint64_t n_steps                    = 0;
+    std::uint64_t n_newton_iterations        = 0;
+    std::uint64_t n_linear_iterations        = 0;
+    std::uint64_t n_rejected_attempts        = 0;
+    double        largest_condition_estimate = 0.; ///< of the tangents; 0 if unknown
 
     double                        wall_seconds = 0;
     double                        cpu_seconds  = 0; ///< of all ranks together

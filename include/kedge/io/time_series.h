@@ -10,7 +10,8 @@ namespace kedge
 {
   /**
    * The index file of a series of outputs (points.pvd, grid.pvd, points.xdmf):
-   * whole again after every output, replaced atomically by rank 0.
+   * whole again after every output, replaced atomically by rank 0; flush() makes
+   * it outlast a power cut.
    */
   class TimeSeries
   {
@@ -31,6 +32,10 @@ namespace kedge
     /** Adds an entry and rewrites the file. Collective. */
     void
     add(const double time, const std::string &entry);
+
+    /** Forces the file to the disk, if there is one. Collective. */
+    void
+    flush() const;
 
   private:
     struct Entry

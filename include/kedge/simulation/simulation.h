@@ -2,9 +2,11 @@
 #define kedge_simulation_simulation_h
 
 #include <kedge/base/exceptions.h>
+#include <kedge/io/audit_writer.h>
 #include <kedge/io/checkpoint.h>
 #include <kedge/io/grid_output.h>
 #include <kedge/io/history_writer.h>
+#include <kedge/io/newton_log.h>
 #include <kedge/io/points_output.h>
 #include <kedge/io/probe_writer.h>
 #include <kedge/io/progress.h>
@@ -44,7 +46,6 @@ namespace kedge
       double        external_work      = 0.;
       double        initial_energy     = 0.;
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
-      double        update_seconds     = 0.;
       double        points_times_steps = 0.;
       std::uint64_t newton             = 0;
       std::uint64_t linear             = 0;
@@ -101,13 +102,14 @@ namespace kedge
     std::unique_ptr<ProbeWriter<dim>>  probes;
     std::unique_ptr<PointsOutput<dim>> points_output;
     std::unique_ptr<GridOutput<dim>>   grid_output;
-    std::unique_ptr<CsvFile>           newton_log;
+    std::unique_ptr<NewtonLog>         newton_log;
+    std::unique_ptr<AuditWriter<dim>>  audit_writer;
     CheckpointStore<dim>               checkpoints;
     Progress                           progress;
     double                             last_checkpoint_wall = 0.;
     std::uint64_t                      last_checkpoint_step = 0;
     std::optional<std::uint64_t>       last_points_step; ///< step of the last output of points
-    double                             output_seconds = 0.;
+    PhaseTime                          output_time;
   };
 
   /**

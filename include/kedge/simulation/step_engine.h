@@ -6,9 +6,11 @@
 #include <kedge/solid/external_loads.h>
 #include <kedge/solid/point_update.h>
 #include <kedge/solid/solid_problem.h>
+#include <kedge/transfer/audit.h>
 #include <kedge/transfer/velocity_mapping.h>
 
 #include <map>
+#include <optional>
 
 namespace kedge
 {
@@ -143,21 +145,46 @@ namespace kedge
       return problem.n_equations();
     }
 
+    /** Worst condition estimate of a tangent so far; 0 if unknown. */
+    double
+    largest_condition() const
+    {
+      return problem.largest_condition();
+    }
+
     std::string
     linear_method() const
     {
       return problem.linear_method();
     }
 
-    /** Wall seconds so far, by phase. */
-    std::map<std::string, double>
-    phase_seconds() const;
+    /** Time spent so far by this process, by phase. */
+    std::map<std::string, PhaseTime>
+    phase_times() const;
+
+    /** Whether the mappings are audited: asked for, and there are velocities to map. */
+    bool
+    audits_transfer() const
+    {
+      return scene.transfer.audit && scheme.dynamic;
+    }
+
+    /** What the mappings of the last accepted step lost, if Mapping/Audit asks for it. */
+    const std::optional<TransferAudit<dim>> &
+    transfer_audit() const
+    {
+      return audit;
+    }
 
   private:
     void
     check_overlaps() const;
     void
     cover_points(const std::vector<PointRecord<dim>> &records);
+    void
+    find_nodes();
+    void
+    map_velocities_back();
     void
     follow_points();
     LinearStatus
@@ -193,7 +220,7 @@ namespace kedge
     std::vector<GeneratedPoint<dim>>    generated;
     LatticeWindow<dim>                  covered;
     std::vector<unsigned int>           weights;
-    bool                                activated = false;
+    bool                                activated = false, new_pattern = false;
     double                              step_t    = 0.;
     double                              step_dt   = 0.;
     double                              step_work = 0.;
@@ -201,7 +228,8 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;
     std::vector<dealii::Tensor<1, dim>> velocity_changes, accelerations;
-    std::map<std::string, double>       seconds;
+    std::map<std::string, PhaseTime>    phases;
+    std::optional<TransferAudit<dim>>   audit;
   };
 } // namespace kedge
 

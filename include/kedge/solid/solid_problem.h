@@ -1,6 +1,7 @@
 #ifndef kedge_solid_solid_problem_h
 #define kedge_solid_solid_problem_h
 
+#include <kedge/base/stopwatch.h>
 #include <kedge/grid/node_conditions.h>
 #include <kedge/solid/internal_force.h>
 #include <kedge/solvers/newton.h>
@@ -18,10 +19,10 @@ namespace kedge
     std::vector<double> displacement;   ///< u, the unknown: over the step [m]
   };
 
-  /** Wall seconds spent in the parts of the Newton iteration. */
+  /** Time spent in the parts of the Newton iteration. */
   struct SolidTimings
   {
-    double residual = 0., tangent = 0., linear_solve = 0.;
+    PhaseTime residual, tangent, linear_solve;
   };
 
   /**
@@ -70,11 +71,18 @@ namespace kedge
     double
     reaction_work() const;
 
-    /** Says where the tangent was singular in this step; empty if nowhere. */
-    const std::string &
-    warning() const
+    /**
+     * Says where the tangent was singular, or nearly so, in this step; empty
+     * if nowhere (collective).
+     */
+    std::string
+    diagnosis() const;
+
+    /** Worst condition estimate of a tangent so far; 0 if the linear solver gives none. */
+    double
+    largest_condition() const
     {
-      return warning_;
+      return largest_condition_;
     }
 
     std::uint64_t
@@ -128,7 +136,10 @@ namespace kedge
     std::vector<double>      internal, inertia, acceleration, residual, correction;
     std::vector<double>      diagonal; ///< of the last tangent, at the equations
     SolidTimings             timings_;
-    std::string              warning_;
+    std::string              warning_;                ///< of a singular tangent in this step
+    double                   condition          = 0.; ///< worst of this step
+    double                   largest_condition_ = 0.;
+    std::int64_t             weakest_equation   = -1;
   };
 } // namespace kedge
 

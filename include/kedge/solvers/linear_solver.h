@@ -16,6 +16,12 @@ namespace kedge
     unsigned int iterations = 0;  ///< of Krylov methods; 0 for direct ones
     std::int64_t equation   = -1; ///< global equation that looks singular, if known
     std::string  cause;           ///< empty on success
+    /**
+     * Largest over smallest pivot of the scaled matrix, at least the size of
+     * its condition number in most cases; 0 where the method gives none.
+     */
+    double       condition_estimate = 0.;
+    std::int64_t weakest_equation   = -1; ///< of the smallest pivot, if known
 
     static LinearStatus
     failure(const std::string &cause, const std::int64_t equation = -1)

@@ -58,9 +58,10 @@ namespace kedge
    * made safe against small first steps: a residual at the round-off of its
    * own terms is converged too. A correction that leads to an inadmissible
    * state (det F <= 0, not finite) is halved. When the criterion holds, one
-   * more correction with the tangent at hand polishes the solution: it costs
-   * no factorisation and takes the residual near round-off, which is what the
-   * conservation of energy and momenta lives on.
+   * more correction with the tangent at hand polishes the solution, and a few
+   * more as long as each helps and round-off is not near: they cost no
+   * factorisation, and what is left of the residual is what conservation of
+   * energy and momenta lacks.
    */
   NewtonReport
   solve_newton(NewtonProblem &problem, const NewtonParameters &parameters);

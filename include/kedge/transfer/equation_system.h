@@ -4,18 +4,10 @@
 #include <kedge/grid/active_nodes.h>
 #include <kedge/solvers/sparse_system.h>
 #include <kedge/transfer/node_matrix.h>
-#include <kedge/transfer/node_ties.h>
+#include <kedge/transfer/tied_rows.h>
 
 namespace kedge
 {
-  /** Where the value of a nodal component comes from. */
-  enum class NodalStatus : unsigned char
-  {
-    prescribed, ///< by a node condition: no equation
-    free,       ///< an equation of its own
-    tied        ///< extrapolated from others (NodeTies): no equation
-  };
-
   /**
    * The linear equations of the free components at the active nodes: numbers
    * them, finds the sparsity pattern from the lattice and the ties, and fills
@@ -64,15 +56,35 @@ namespace kedge
     }
 
   private:
-    /** An entry of A that contributes, through a tie, to an entry elsewhere. */
-    struct Contribution
+    /** Marks what a nodal block does not have. */
+    static constexpr unsigned int none = static_cast<unsigned int>(-1);
+
+    /** A nodal block of a node's rows: the equations of one other node, consecutive. */
+    struct Block
     {
-      std::int64_t row, column; ///< equations
-      std::size_t  source;      ///< place in the values of the NodeMatrix
-      double       weight;
+      std::int64_t first; ///< equation
+      unsigned int slot;  ///< in A's row, or none
+      unsigned int node;  ///< local number, or none
+      unsigned int n_equations;
+    };
+    using Blocks = std::vector<Block>;
+
+    /** A block of which another rank fills a part, in the rows that begin at an equation. */
+    struct RemoteBlock
+    {
+      std::int64_t row;
+      Block        block;
     };
 
-    using Row = std::vector<std::pair<int, unsigned int>>; ///< column and place in A's row
+    /** Rows that this rank adds to through ties: its own and those of other ranks. */
+    struct FedNode
+    {
+      unsigned int node;
+      unsigned int first_feed, end_feed; ///< in TiedRows::feeds()
+      std::size_t  first_place;          ///< in places, of its first feed
+      std::size_t  remote;               ///< start in remote_values; unused for owned nodes
+      unsigned int row_length;
+    };
 
     void
     number_equations(const ActiveNodes<dim> &nodes, const std::vector<NodalStatus> &status);
@@ -80,42 +92,50 @@ namespace kedge
     neighbour_equations(const BackgroundGrid<dim> &grid,
                         const ActiveNodes<dim>    &nodes,
                         const NodeMatrix<dim>     &matrix) const;
-    std::vector<std::pair<std::int64_t, double>>
-    expand(const NodeTies<dim>            &ties,
-           const std::vector<NodalStatus> &status,
-           const unsigned int              node,
-           const unsigned int              component) const;
-    std::vector<Contribution>
-    tied_contributions(const BackgroundGrid<dim>      &grid,
-                       const ActiveNodes<dim>         &nodes,
-                       const NodeTies<dim>            &ties,
-                       const std::vector<NodalStatus> &status,
-                       const NodeMatrix<dim>          &matrix) const;
-    std::vector<std::pair<std::int64_t, std::int64_t>>
-    share_contributions(const std::vector<Contribution> &contributions);
+    void
+    find_fed_nodes(const ActiveNodes<dim> &nodes);
+    void
+    add_tied_blocks(const FedNode &fed, Blocks &blocks);
+    void
+    place_feeds(FedNode &fed, const Blocks &blocks);
+    static void
+    sort_and_merge(Blocks &blocks);
+    std::vector<RemoteBlock>
+    exchange_remote_rows(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes);
+    void
+    build_rows(const ActiveNodes<dim>          &nodes,
+               const std::vector<std::int64_t> &columns,
+               const unsigned int               n_slots,
+               const std::vector<RemoteBlock>  &remote);
+    void
+    add_rows(const unsigned int n_rows, const std::int64_t *of_node, const Blocks &blocks);
+    void
+    find_incoming_targets();
+    void
+    add_fed_rows(const FedNode &fed, const unsigned int n_owned);
+    void
+    add_remote_rows();
+    std::int64_t
+    first_equation(const unsigned int node) const;
     std::size_t
     position(const std::int64_t row, const std::int64_t column) const;
 
-    /** Place of an entry of A that has no counterpart of its own in the equations. */
-    static constexpr unsigned int no_source = static_cast<unsigned int>(-1);
-
     unsigned int              n_components = 0;
     std::vector<std::int64_t> number;            ///< of each local nodal component, or -1
+    std::vector<unsigned int> n_free;            ///< equations of each local node
     std::vector<unsigned int> nodal_of_equation; ///< owned equations
-    std::vector<unsigned int> entry_source;      ///< place in A's row of each entry, or no_source
+    std::vector<unsigned int> entry_source;      ///< place in A's row of each entry, or none
     SparseSystem              system_;
 
-    /** Through ties: to entries owned here, to those of other ranks, from other ranks. */
-    struct Addition
-    {
-      std::size_t target, source;
-      double      weight;
-    };
-    std::vector<Addition>                                                      own_additions;
-    std::map<unsigned int, std::vector<std::pair<std::size_t, double>>>        outgoing_additions;
-    std::map<unsigned int, std::vector<std::size_t>>                           incoming_targets;
-    bool                                                                       any_remote = false;
-    std::map<unsigned int, std::vector<std::pair<std::int64_t, std::int64_t>>> received_entries;
+    TiedRows<dim>                                     tied_rows;
+    std::vector<FedNode>                              fed_nodes;
+    std::vector<unsigned int>                         places; ///< of each feed's columns in a row
+    std::vector<unsigned int>                         mark, offset_of; ///< by local node
+    std::vector<double>                               remote_values;
+    std::map<unsigned int, std::vector<std::int64_t>> incoming_blocks;
+    std::map<unsigned int, std::vector<std::size_t>>  outgoing_ranges; ///< begin, end ..
+    std::map<unsigned int, std::vector<std::size_t>>  incoming_targets;
+    bool                                              any_remote = false;
   };
 } // namespace kedge
 

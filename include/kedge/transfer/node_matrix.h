@@ -1,6 +1,7 @@
 #ifndef kedge_transfer_node_matrix_h
 #define kedge_transfer_node_matrix_h
 
+#include <kedge/grid/active_nodes.h>
 #include <kedge/transfer/step_points.h>
 
 namespace kedge
@@ -128,6 +129,41 @@ namespace kedge
     int                 radius_       = 0;
     std::vector<double> values_;
   };
+
+  /** Calls visit(slot, local node) for the active nodes at all slots of a local node's row. */
+  template <int dim, typename Visit>
+  inline void
+  for_neighbours(const LatticeWindow<dim> &window,
+                 const ActiveNodes<dim>   &nodes,
+                 const unsigned int        node,
+                 const NodeMatrix<dim>    &matrix,
+                 const Visit              &visit)
+  {
+    const auto here    = window.node_index(nodes.window_node(node));
+    const auto strides = window.node_strides();
+    const int  radius = matrix.radius(), width = 2 * radius + 1;
+    int        low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    for (int d = 0; d < dim; ++d)
+      {
+        low[d]  = std::max(-radius, window.low[d] - here[d]);
+        high[d] = std::min(radius, window.low[d] + window.n_cells[d] - here[d]);
+      }
+    for (int k = low[2]; k <= high[2]; ++k)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int i = low[0]; i <= high[0]; ++i)
+          {
+            int step = i * int(strides[0]) + j * int(strides[1]);
+            int slot = i + radius + width * (j + radius);
+            if constexpr (dim == 3)
+              {
+                step += k * int(strides[2]);
+                slot += width * width * (k + radius);
+              }
+            const int local = nodes.local(nodes.window_node(node) + step);
+            if (local >= 0)
+              visit(static_cast<unsigned int>(slot), static_cast<unsigned int>(local));
+          }
+  }
 
   /** Slots of all node pairs of a stencil pattern: slots[A][B] is the slot of B in the row of A. */
   template <int dim, unsigned int pattern>

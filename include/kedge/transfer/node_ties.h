@@ -11,10 +11,11 @@ namespace kedge
    * elements, Badia et al. 2018). A node whose share of material is below a
    * threshold does not move by itself: its value is the linear extrapolation
    *   u_t = sum_j w_tj u_j
-   * from the nodes j of the nearest cell whose nodes are all well filled. In
-   * matrix form u = C u^; residuals become C^T r, matrices C^T A C. As C
-   * reproduces linear fields, both momenta are conserved, and as mass,
-   * residual and motion use the same C, so is energy.
+   * from the nodes j of the nearest cell whose nodes are all well filled and
+   * reached by a body that reaches the tied node too; only where there is none
+   * nearby, of any well-filled cell. In matrix form u = C u^; residuals become C^T r, matrices C^T
+   * A C. As C reproduces linear fields, both momenta are conserved, and as mass, residual and
+   * motion use the same C, so is energy.
    */
   template <int dim>
   class NodeTies
@@ -81,11 +82,18 @@ namespace kedge
     }
 
   private:
+    std::vector<LatticeIndex<dim>>
+    nearest_cells(const LatticeWindow<dim>         &window,
+                  const std::vector<double>        &filling,
+                  const double                      threshold,
+                  const std::vector<std::uint64_t> &bodies,
+                  const unsigned int                tied_node) const;
     bool
-    tie_to_nearest_cell(const LatticeWindow<dim>  &window,
-                        const std::vector<double> &filling,
-                        const double               threshold,
-                        Tie                       &tie) const;
+    tie_to_nearest_cell(const LatticeWindow<dim>         &window,
+                        const std::vector<double>        &filling,
+                        const double                      threshold,
+                        const std::vector<std::uint64_t> &bodies,
+                        Tie                              &tie) const;
 
     std::vector<Tie> window_ties, local_ties;
     std::vector<int> tie_numbers;

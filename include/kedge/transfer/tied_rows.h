@@ -1,0 +1,117 @@
+#ifndef kedge_transfer_tied_rows_h
+#define kedge_transfer_tied_rows_h
+
+#include <kedge/transfer/node_matrix.h>
+#include <kedge/transfer/node_ties.h>
+
+namespace kedge
+{
+  /** Where the value of a nodal component comes from. */
+  enum class NodalStatus : unsigned char
+  {
+    prescribed, ///< by a node condition: no equation
+    free,       ///< an equation of its own
+    tied        ///< extrapolated from others (NodeTies): no equation
+  };
+
+  /**
+   * The first half of C^T A C: the rows of A C that differ from those of A,
+   * and which nodes they belong to in C^T. A row of a tied node is whole, one
+   * of another node holds only what comes from its tied neighbours. Only this
+   * rank's share of A is multiplied.
+   */
+  template <int dim>
+  class TiedRows
+  {
+  public:
+    /** A row of A C: nodal blocks at the given columns (local nodes). */
+    struct Row
+    {
+      unsigned int node;
+      unsigned int components; ///< bit p: component p is not prescribed
+      unsigned int first_column, end_column;
+      unsigned int first_coupling, end_coupling;
+    };
+
+    /** A row of A C that a node receives through C^T. */
+    struct Feed
+    {
+      unsigned int node; ///< that receives
+      unsigned int row;
+      double       weight;
+    };
+
+    /** Finds rows, columns and feeds; linear in the couplings of tied nodes. */
+    void
+    reinit(const LatticeWindow<dim>       &window,
+           const ActiveNodes<dim>         &nodes,
+           const NodeTies<dim>            &ties,
+           const std::vector<NodalStatus> &status,
+           const NodeMatrix<dim>          &matrix);
+
+    /** Computes the rows from the values of A. */
+    void
+    multiply(const NodeMatrix<dim> &matrix);
+
+    const Row &
+    row(const unsigned int number) const
+    {
+      return rows[number];
+    }
+
+    /** Local node of a column, first_column <= number < end_column of its row. */
+    unsigned int
+    column(const unsigned int number) const
+    {
+      return columns[number];
+    }
+
+    /** Values of component @p p of a row: n_components for each column. */
+    const double *
+    values(const Row &row, const unsigned int p) const
+    {
+      return product.data() + first_value(row, p);
+    }
+
+    /** Sorted by the receiving nodes. */
+    const std::vector<Feed> &
+    feeds() const
+    {
+      return all_feeds;
+    }
+
+  private:
+    /** An entry of A that is added to a column of its row in A C. */
+    struct Coupling
+    {
+      unsigned int slot;
+      unsigned int column;     ///< counted from the row's first
+      unsigned int components; ///< bit m: component m of the neighbour is not prescribed
+      double       weight;
+    };
+
+    std::size_t
+    first_value(const Row &row, const unsigned int p) const
+    {
+      const std::size_t n_columns = row.end_column - row.first_column;
+      return (std::size_t(row.first_column) * n_components + p * n_columns) * n_components;
+    }
+
+    void
+    add_couplings(const NodeTies<dim> &ties,
+                  const unsigned int   slot,
+                  const unsigned int   neighbour,
+                  const unsigned int   components);
+
+    unsigned int              n_components = 0;
+    std::vector<Row>          rows;
+    std::vector<unsigned int> columns;
+    std::vector<Coupling>     couplings;
+    std::vector<Feed>         all_feeds;
+    std::vector<double>       product;
+    std::vector<unsigned int> mark,
+      place_of_column; ///< of the last row that has a local node as a column
+  };
+} // namespace kedge
+
+#endif
