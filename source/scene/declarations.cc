@@ -196,6 +196,11 @@ namespace kedge
             "",
             allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
             "All nodes where this is true, for example abs(x) < 1e-6 && y > 2."}}};
+        section.entries.push_back(
+          {"Reaction",
+           "false",
+           allow.truth(),
+           "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."});
         for (const std::string &coordinate : coordinates("xyz"))
           section.entries.push_back({"Component " + coordinate,
                                      "free",
@@ -292,15 +297,11 @@ namespace kedge
             "1/1024",
             allow.number(factor),
             "A step that does not converge is cut; below this fraction of Step the run stops [-]."},
-           {"Adapt step",
-            "false",
-            allow.truth(),
-            "Whether a step that took 10 Newton iterations or more makes the next one smaller, and "
-            "only three in a row that took 5 or fewer let it grow."},
            {"Largest step factor",
-            "1",
-            allow.number(growth),
-            "How far Adapt step may let steps grow beyond Step, in powers of two [-]."},
+            "",
+            allow.number(growth).or_empty(),
+            "If given, steps adapt to Newton's method: 10 iterations or more halve the next step, "
+            "three steps in a row with at most 5 double it, up to this times Step [-]."},
            {"Break times", "", allow.numbers().or_empty(), "Times at which a step must end [s]."},
            {"Newmark beta", "0.25", allow.number(beta), "Of the scheme newmark [-]."},
            {"Newmark gamma", "0.5", allow.number(fraction), "Of the scheme newmark [-]."},

@@ -215,7 +215,8 @@ namespace kedge
           condition.side = parse_side<dim>(section.text("Side"));
         else
           condition.where = section.text("Where");
-        bool acts = false;
+        condition.reaction = section.truth("Reaction");
+        bool acts          = false;
         for (unsigned int d = 0; d < dim; ++d)
           {
             condition.components[d] =
@@ -297,8 +298,9 @@ namespace kedge
       (kind == StepSizeKind::fixed ? time.step : time.cfl_factor) = value;
       time.minimum_step_factor = section.number("Smallest step factor");
 
-      time.adapt_step          = section.truth("Adapt step");
-      time.maximum_step_factor = section.number("Largest step factor");
+      time.adapt_step = !section.is_empty("Largest step factor");
+      if (time.adapt_step)
+        time.maximum_step_factor = section.number("Largest step factor");
 
       time.break_times = section.numbers("Break times");
       for (const double break_time : time.break_times)

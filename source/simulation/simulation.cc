@@ -99,6 +99,34 @@ namespace kedge
 
 
   template <int dim>
+  HistoryColumns
+  Simulation<dim>::columns() const
+  {
+    HistoryColumns columns = {dim, engine.has_plasticity(), false, {}};
+    for (const auto &condition : scene.node_conditions)
+      if (condition.reaction)
+        for (int d = 0; d < dim; ++d)
+          columns.reactions.push_back("reaction_" + condition.name + "_" + "xyz"[d]);
+    return columns;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Simulation<dim>::reactions() const
+  {
+    std::vector<double> result;
+    for (unsigned int c = 0; c < scene.node_conditions.size(); ++c)
+      if (scene.node_conditions[c].reaction)
+        for (int d = 0; d < dim; ++d)
+          result.push_back(engine.reactions_of_last_step()[c * dim + d]);
+    return result;
+  }
+
+
+
+  template <int dim>
   ExitCode
   Simulation<dim>::run()
   {
@@ -143,6 +171,7 @@ namespace kedge
     row.linear_iterations = step.newton.linear_iterations;
     row.rejected_attempts = static_cast<unsigned int>(totals.rejected_pending);
     row.external_work     = totals.external_work;
+    row.reactions         = reactions();
     engine.write_books(row);
     row.energy_error = row.total_energy() + row.plastic_dissipation + row.stabilisation_energy -
                        totals.initial_energy - row.external_work;

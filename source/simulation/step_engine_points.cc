@@ -216,6 +216,8 @@ namespace kedge
     step_work = dealii::Utilities::MPI::sum(work, communicator);
     if (conditions.any_moving())
       step_work += problem.reaction_work();
+    if (!conditions.empty())
+      reactions = problem.reactions();
 
     if (scheme.dynamic)
       map_velocities_back();
