@@ -198,6 +198,11 @@ namespace kedge
             "",
             allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
             "All nodes where this is true, for example abs(x) < 1e-6 && y > 2."}}};
+        section.entries.push_back(
+          {"Reaction",
+           "false",
+           allow.truth(),
+           "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."});
         for (const std::string &coordinate : coordinates("xyz"))
           section.entries.push_back({"Component " + coordinate,
                                      "free",
@@ -264,6 +269,8 @@ namespace kedge
         fraction.upper = 1;
         Range beta     = Range::positive();
         beta.upper     = 0.5;
+        Range growth;
+        growth.lower = 1;
         return {
           "Time",
           "From when to when, in which steps, by which scheme.",
@@ -271,13 +278,15 @@ namespace kedge
           {{"Scheme",
             "clc-midpoint",
             allow.one_of({"quasi-static",
+                          "clc-quasi-static",
                           "clc-midpoint",
                           "midpoint",
                           "trapezoidal",
                           "newmark",
                           "generalised-alpha"}),
             "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
-            "only counts the load."},
+            "only counts the load. clc-quasi-static balances the middle of the step instead of "
+            "its end, so that the energy books close."},
            {"Start", "0", allow.number(), "When the run starts [s]."},
            {"End", required, allow.number(), "When it ends [s]."},
            {"Step",
@@ -290,6 +299,11 @@ namespace kedge
             "1/1024",
             allow.number(factor),
             "A step that does not converge is cut; below this fraction of Step the run stops [-]."},
+           {"Largest step factor",
+            "",
+            allow.number(growth).or_empty(),
+            "If given, steps adapt to Newton's method: 10 iterations or more halve the next step, "
+            "three steps in a row with at most 5 double it, up to this times Step [-]."},
            {"Break times", "", allow.numbers().or_empty(), "Times at which a step must end [s]."},
            {"Newmark beta", "0.25", allow.number(beta), "Of the scheme newmark [-]."},
            {"Newmark gamma", "0.5", allow.number(fraction), "Of the scheme newmark [-]."},

@@ -146,7 +146,8 @@ namespace kedge
           condition.side = parse_side<dim>(section.text("Side"));
         else
           condition.where = section.text("Where");
-        bool acts = false;
+        condition.reaction = section.truth("Reaction");
+        bool acts          = false;
         for (unsigned int d = 0; d < dim; ++d)
           {
             condition.components[d] =
@@ -208,6 +209,7 @@ namespace kedge
     {
       static const std::map<std::string, SchemeKind> schemes = {
         {"quasi-static", SchemeKind::quasi_static},
+        {"clc-quasi-static", SchemeKind::clc_quasi_static},
         {"clc-midpoint", SchemeKind::clc_midpoint},
         {"midpoint", SchemeKind::midpoint},
         {"trapezoidal", SchemeKind::trapezoidal},
@@ -226,6 +228,10 @@ namespace kedge
       time.step_kind           = kind;
       (kind == StepSizeKind::fixed ? time.step : time.cfl_factor) = value;
       time.minimum_step_factor = section.number("Smallest step factor");
+
+      time.adapt_step = !section.is_empty("Largest step factor");
+      if (time.adapt_step)
+        time.maximum_step_factor = section.number("Largest step factor");
 
       time.break_times = section.numbers("Break times");
       for (const double break_time : time.break_times)

@@ -218,6 +218,8 @@ namespace kedge
       step_work += problem.reaction_work();
     if (has_ghosts())
       ghost_work = work_against_ghosts();
+    if (!conditions.empty())
+      reactions = problem.reactions();
 
     if (scheme.dynamic)
       map_velocities_back();

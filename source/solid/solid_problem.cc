@@ -76,6 +76,8 @@ namespace kedge
     acceleration.resize(state.displacement.size());
     residual.resize(state.displacement.size());
     set_prescribed_displacements();
+    if (conditions->any_moving())
+      follow_supports();
   }
 
 
@@ -90,6 +92,42 @@ namespace kedge
           state->displacement[std::size_t(i) * dim + d] =
             conditions->increment(i, d, t_n, t_n + dt);
     ties->prolong(state->displacement);
+  }
+
+
+
+  /**
+   * Where supports move, the first guess follows them: u_f = -K^-1 (r_f(0) +
+   * K_fp u_p) with the tangent of the state at t_n and its product with the
+   * prescribed u_p as a difference of residuals. Without it, the cells next to
+   * the supports would start the iteration with all of the motion.
+   */
+  template <int dim>
+  void
+  SolidProblem<dim>::follow_supports()
+  {
+    const std::vector<double> supports_moved = state->displacement;
+    constexpr double          part           = 1e-6;
+    for (double &u : state->displacement)
+      u *= part;
+    bool ok = evaluate().ok;
+
+    const std::vector<double> moved_a_little = residual;
+    std::fill(state->displacement.begin(), state->displacement.end(), 0.);
+    ok = evaluate().ok && ok;
+    if (ok)
+      {
+        for (std::size_t i = 0; i < residual.size(); ++i)
+          residual[i] += (moved_a_little[i] - residual[i]) / part;
+        double norm = 0.;
+        ok          = solve_correction(norm, false).success && std::isfinite(norm);
+      }
+    state->displacement = supports_moved;
+    if (!ok)
+      return;
+    apply_correction(1.);
+    if (!evaluate().ok)
+      state->displacement = supports_moved;
   }
 
 
@@ -271,6 +309,21 @@ namespace kedge
       if (status[i] == NodalStatus::prescribed)
         work += residual[i] * state->displacement[i];
     return dealii::Utilities::MPI::sum(work, nodes->communicator());
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  SolidProblem<dim>::reactions() const
+  {
+    std::vector<double> forces(std::size_t(conditions->size()) * dim, 0.);
+    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (conditions->prescribed(i, d))
+          forces[conditions->condition(i, d) * dim + d] += residual[std::size_t(i) * dim + d];
+    dealii::Utilities::MPI::sum(forces, nodes->communicator(), forces);
+    return forces;
   }
 
 

@@ -79,10 +79,10 @@ namespace kedge
     finish(const std::string &status, const std::string &reason);
     /** What history.csv holds in this scene. */
     HistoryColumns
-    columns() const
-    {
-      return {dim, engine.has_plasticity(), scene.stabilisation.method == StabilisationKind::ghost};
-    }
+    columns() const;
+    /** Those that it shows, as HistoryRow holds them. */
+    std::vector<double>
+    reactions() const;
 
     double
     wall_time() const;

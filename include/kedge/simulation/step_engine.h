@@ -98,6 +98,13 @@ namespace kedge
       return ghost_work;
     }
 
+    /** Forces of the supports in the last accepted step: dim values per node condition [N]. */
+    const std::vector<double> &
+    reactions_of_last_step() const
+    {
+      return reactions;
+    }
+
     const MaterialPoints<dim> &
     points() const
     {
@@ -254,6 +261,7 @@ namespace kedge
     double                              step_dt    = 0.;
     double                              step_work  = 0.;
     double                              ghost_work = 0.;
+    std::vector<double>                 reactions;
     std::vector<dealii::Tensor<1, dim>> point_forces;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;

@@ -80,6 +80,13 @@ namespace kedge
     reaction_work() const;
 
     /**
+     * The forces of the supports on the bodies in the balance of this step,
+     * after convergence [N]: dim values per node condition (collective).
+     */
+    std::vector<double>
+    reactions() const;
+
+    /**
      * Says where the tangent was singular, or nearly so, in this step; empty
      * if nowhere (collective).
      */
@@ -114,6 +121,8 @@ namespace kedge
   private:
     void
     set_prescribed_displacements();
+    void
+    follow_supports();
     void
     assemble_tangent();
     void
