@@ -19,7 +19,7 @@ namespace kedge
                {"Log",
                 "false",
                 allow.truth(),
-                "Write newton.csv: the norms of every residual and correction."}}};
+                "Write newton.csv: every residual and correction, and the order."}}};
     }
 
     template <int dim>
@@ -47,22 +47,23 @@ namespace kedge
     {
       NumberRange fraction = NumberRange::not_negative();
       fraction.upper       = 1;
-      return {"Mapping",
-              "Between material points and grid.",
-              SectionKind::plain,
-              {{"Velocity",
-                "flip",
-                allow.one_of({"flip", "pic"}),
-                "flip: points take the change of the grid's velocity. pic: the velocity itself, "
-                "which damps."},
-               {"Lumping",
-                "0",
-                allow.number(fraction),
-                "Mass matrix from 0, consistent, to 1, lumped [-]."},
-               {"Audit",
-                "false",
-                allow.truth(),
-                "Write what each mapping loses of momenta and kinetic energy."}}};
+      return {
+        "Mapping",
+        "Between material points and grid.",
+        SectionKind::plain,
+        {{"Velocity",
+          "flip",
+          allow.one_of({"flip", "pic"}),
+          "flip: points take the change of the grid's velocity. pic: the velocity itself, "
+          "which damps."},
+         {"Lumping",
+          "0",
+          allow.number(fraction),
+          "Mass matrix from 0, consistent, to 1, lumped [-]."},
+         {"Audit",
+          "false",
+          allow.truth(),
+          "Write transfer_audit.csv: what each mapping loses of momenta and kinetic energy."}}};
     }
 
     template <int dim>

@@ -28,7 +28,7 @@ namespace kedge
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
       probe_names.push_back(probe.name);
-    verify_checks<dim>(scene.checks, columns(), probe_names);
+    verify_checks<dim>(scene.checks, columns().names(), probe_names);
 
     engine.create_points();
     if (options.resume)

@@ -18,6 +18,28 @@ namespace kedge
 
     template <int dim>
     std::vector<bool>
+    bodies_with_shared_volume(const Scene<dim> &scene)
+    {
+      std::vector<bool> result;
+      for (const auto &body : scene.bodies)
+        result.push_back(scene.materials[body.material].volume_change == VolumeChange::cell_mean);
+      return result;
+    }
+
+    /** How far the points of a cell couple nodes, which is further than one point does. */
+    template <int dim>
+    int
+    stiffness_radius_of(const Scene<dim> &scene)
+    {
+      for (const auto &body : scene.bodies)
+        if (body.basis == BasisKind::gimp &&
+            scene.materials[body.material].volume_change == VolumeChange::cell_mean)
+          return 3;
+      return radius_of(scene);
+    }
+
+    template <int dim>
+    std::vector<bool>
     bodies_with_body_force(const Scene<dim> &scene)
     {
       std::vector<bool> result;
@@ -70,6 +92,8 @@ namespace kedge
     , communicator(communicator)
     , scheme(scene.time)
     , stencil_radius(radius_of(scene))
+    , stiffness_radius(stiffness_radius_of(scene))
+    , shared_volume(bodies_with_shared_volume(scene))
     , material_of_body(materials_of_bodies(scene))
     , with_history(std::any_of(material_of_body.begin(),
                                material_of_body.end(),
@@ -130,7 +154,7 @@ namespace kedge
   void
   StepEngine<dim>::find_nodes()
   {
-    step_points.reinit(background, cloud, basis_of_body, with_history);
+    step_points.reinit(background, cloud, basis_of_body, with_history, shared_volume);
     auto       reached  = step_points.reached_nodes(background.window());
     const bool has_ties = scene.stabilisation.method == StabilisationKind::aggregation;
     ties.find(background,
@@ -156,7 +180,7 @@ namespace kedge
                    step_points,
                    has_ghosts() ? ghosted_mass : mass,
                    has_ghosts() ? &ghost_stiffness : nullptr,
-                   stencil_radius,
+                   stiffness_radius,
                    new_pattern);
   }
 

@@ -35,7 +35,7 @@ namespace kedge
                             const StepPoints<dim>     &points,
                             const NodeMatrix<dim>     &mass,
                             const NodeMatrix<dim>     *ghost_stiffness,
-                            const int                  stencil_radius,
+                            const int                  stiffness_radius,
                             const bool                 new_pattern)
   {
     this->grid       = &grid;
@@ -47,7 +47,7 @@ namespace kedge
     this->penalty    = ghost_stiffness;
     if (!new_pattern)
       return;
-    stiffness.reinit(nodes.n_local(), dim, stencil_radius);
+    stiffness.reinit(nodes.n_local(), dim, stiffness_radius);
     status.resize(std::size_t(nodes.n_local()) * dim);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       for (int d = 0; d < dim; ++d)
@@ -171,14 +171,17 @@ namespace kedge
   void
   SolidProblem<dim>::add_to_diagonal_blocks(const double coefficient, const NodeMatrix<dim> &matrix)
   {
+    std::vector<unsigned int> slots(matrix.n_slots()); // of the matrix, in the wider stiffness
+    for (unsigned int s = 0; s < slots.size(); ++s)
+      slots[s] = stiffness.slot(matrix.offset(s));
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       {
         const double *matrix_row = matrix.row(i, 0);
         for (int p = 0; p < dim; ++p)
           {
             double *row = stiffness.row(i, p);
-            for (unsigned int s = 0; s < stiffness.n_slots(); ++s)
-              row[s * dim + p] += coefficient * matrix_row[s];
+            for (unsigned int s = 0; s < slots.size(); ++s)
+              row[slots[s] * dim + p] += coefficient * matrix_row[s];
           }
       }
   }

@@ -222,6 +222,8 @@ namespace kedge
     const MPI_Comm           communicator;
     const Scheme             scheme;
     const int                stencil_radius;
+    const int                stiffness_radius;
+    const std::vector<bool>  shared_volume; ///< of the points in a cell, one per body
     std::vector<BasisKind>   basis_of_body;
     std::vector<Material>    material_of_body;
     std::vector<double>      modulus_of_body; ///< Young's [Pa]

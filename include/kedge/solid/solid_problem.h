@@ -43,7 +43,8 @@ namespace kedge
                  const std::vector<std::string> &body_names);
 
     /**
-     * Announces points, nodes and conditions of a step.
+     * Announces points, nodes and conditions of a step. The stiffness couples
+     * nodes up to @p stiffness_radius apart, no less than the mass does.
      *
      * @param ghost_stiffness K_G, acts alike on all components [N/m]; nullptr for none
      */
@@ -55,7 +56,7 @@ namespace kedge
            const StepPoints<dim>     &points,
            const NodeMatrix<dim>     &mass,
            const NodeMatrix<dim>     *ghost_stiffness,
-           const int                  stencil_radius,
+           const int                  stiffness_radius,
            const bool                 new_pattern);
 
     /**
