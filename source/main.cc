@@ -3,10 +3,12 @@
 #include <kedge/io/versions.h>
 #include <kedge/scene/command_line.h>
 #include <kedge/scene/read_scene.h>
+#include <kedge/simulation/drive_point.h>
 #include <kedge/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdlib>
 #include <iostream>
 
 extern "C"
@@ -20,6 +22,13 @@ namespace kedge
 {
   namespace
   {
+    std::filesystem::path
+    output_folder(const CommandLine &command, const std::string &scene_name)
+    {
+      return command.output.empty() ? std::filesystem::path("output") / scene_name
+                                    : std::filesystem::path(command.output);
+    }
+
     template <int dim>
     ExitCode
     run(const CommandLine &command, const ParameterFile &file)
@@ -31,8 +40,7 @@ namespace kedge
           return ExitCode::finished;
         }
       RunOptions options;
-      options.output = command.output.empty() ? std::filesystem::path("output") / scene.name :
-                                                std::filesystem::path(command.output);
+      options.output = output_folder(command, scene.name);
       options.resume = command.resume;
       options.strict = command.strict;
       return Simulation<dim>(scene, options, MPI_COMM_WORLD).run();
@@ -64,7 +72,26 @@ namespace kedge
       ParameterFile file = ParameterFile::read(command.scene, MPI_COMM_WORLD);
       for (const std::string &setting : command.settings)
         file.set(setting);
+      if (command.drive)
+        {
+          const PathScene scene = read_path_scene(file);
+          return drive_point(scene,
+                             output_folder(command, scene.name),
+                             command.strict,
+                             MPI_COMM_WORLD);
+        }
       return scene_dimension(file) == 2 ? run<2>(command, file) : run<3>(command, file);
+    }
+
+    /**
+     * Ranks that wait give way to others: without it two ranks that share their
+     * cores with other programs take ten times as long. Of Open MPI; mpirun sets
+     * it to 0 for as many ranks as cores, however busy these are.
+     */
+    void
+    give_way_while_waiting()
+    {
+      setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
     }
 
     ExitCode
@@ -84,6 +111,7 @@ main(int argc, char **argv)
 {
   using namespace kedge;
   hasten_single_process_start();
+  give_way_while_waiting();
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   ExitCode                                       code = ExitCode::internal_error;
   try

@@ -24,12 +24,15 @@ namespace kedge
           {
             Motion &motion = condition.motions[d];
             motion.kind    = p.components[d].kind;
-            if (motion.kind == ConditionKind::displacement ||
-                motion.kind == ConditionKind::velocity)
-              {
-                motion.expression = Expression(p.components[d].expression, {"t"}, constants);
-                any_moving_       = true;
-              }
+            if (motion.kind == ConditionKind::free || motion.kind == ConditionKind::fixed)
+              continue;
+            const bool at_place = motion.kind == ConditionKind::motion;
+            motion.expression =
+              Expression(p.components[d].expression,
+                         at_place ? motion_variables() : std::vector<std::string>{"t"},
+                         constants);
+            any_moving_ = true;
+            needs_place = needs_place || at_place;
           }
         conditions.push_back(std::move(condition));
       }
@@ -68,6 +71,11 @@ namespace kedge
           for (int d = 0; d < dim; ++d)
             if (conditions[c].motions[d].kind != ConditionKind::free)
               condition_of[std::size_t(i) * dim + d] = c;
+    if (!needs_place)
+      return;
+    place.resize(nodes.n_local());
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      place[i] = grid.lattice().node_position(grid.window().node_index(nodes.window_node(i)));
   }
 
 
@@ -86,6 +94,13 @@ namespace kedge
           return (*motion.expression)({t1}) - (*motion.expression)({t0});
         case ConditionKind::velocity:
           return (*motion.expression)({0.5 * (t0 + t1)}) * (t1 - t0);
+        case ConditionKind::motion:
+          {
+            double x[3] = {0, 0, 0};
+            for (int e = 0; e < dim; ++e)
+              x[e] = place[node][e];
+            return (*motion.expression)({x[0], x[1], x[2], t0, t1 - t0});
+          }
         default:
           return 0.;
       }

@@ -175,7 +175,7 @@ namespace kedge
   template <int dim>
   void
   verify_checks(const std::vector<CheckParameters> &checks,
-                const HistoryColumns               &history,
+                const std::vector<std::string>     &history_columns,
                 const std::vector<std::string>     &probe_names)
   {
     for (const CheckParameters &check : checks)
@@ -197,7 +197,7 @@ namespace kedge
                    "column of probes");
           }
         else if (prefix)
-          demand(place.column, history.names(), check, "column of history.csv");
+          demand(place.column, history_columns, check, "column of history.csv");
         else
           throw UserError("The check '" + check.name + "' asks for '" + check.column +
                           "': write history.COLUMN or probe.NAME.COLUMN. A point field's name "
@@ -303,11 +303,11 @@ namespace kedge
 
   template void
   verify_checks<2>(const std::vector<CheckParameters> &,
-                   const HistoryColumns &,
+                   const std::vector<std::string> &,
                    const std::vector<std::string> &);
   template void
   verify_checks<3>(const std::vector<CheckParameters> &,
-                   const HistoryColumns &,
+                   const std::vector<std::string> &,
                    const std::vector<std::string> &);
   template std::vector<CheckResult>
   evaluate_checks<2>(const std::vector<CheckParameters> &,

@@ -59,6 +59,11 @@ namespace kedge
          [](CommandLine &command, const std::string &value) {
            command.settings.push_back(value);
          }},
+        {"--drive",
+         "",
+         "",
+         "the file is a path: deform one material point along it, write its stress",
+         raise(&CommandLine::drive)},
         {"--resume",
          "",
          "",
@@ -74,7 +79,11 @@ namespace kedge
          "",
          "a failed check of the scene makes the exit code 2",
          raise(&CommandLine::strict)},
-        {"--threads", "", "N", "number of threads", set_threads},
+        {"--threads",
+         "",
+         "N",
+         "threads of the BLAS in direct solvers (1); all else uses one, see mpirun",
+         set_threads},
         {"--print-parameters",
          "",
          "",
@@ -151,6 +160,8 @@ namespace kedge
     if (command.scene.empty() && !command.help && !command.version && !command.print_parameters)
       throw UserError("Which scene? Give a parameter file: kedge SCENE.prm; - reads standard "
                       "input, kedge --help says more.");
+    if (command.drive && (command.resume || command.validate))
+      throw UserError("The option --drive goes with neither --resume nor --validate.");
     return command;
   }
 

@@ -1,4 +1,5 @@
 #include <kedge/scene/declarations.h>
+#include <kedge/scene/path_scene.h>
 #include <kedge/scene/read_scene.h>
 
 #include <deal.II/base/utilities.h>
@@ -48,7 +49,11 @@ namespace kedge
                   "numbers and two expressions where three stand here, no Component z and no side "
                   "back or front.");
     out << '\n';
-    for (const SectionDeclaration &section : declare_scene<3>({}))
+    std::vector<SectionDeclaration> sections = declare_scene<3>({});
+    for (SectionDeclaration &section : declare_path({}))
+      if (section.name == "Path")
+        sections.push_back(std::move(section));
+    for (const SectionDeclaration &section : sections)
       {
         print_comment(out, "", section.documentation);
         if (section.name.empty())

@@ -1,6 +1,7 @@
-#include <kedge/base/nearest_name.h>
+#include <kedge/scene/cross_checks.h>
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
+#include <kedge/scene/read_materials.h>
 #include <kedge/scene/read_scene.h>
 #include <kedge/scene/values.h>
 
@@ -61,38 +62,6 @@ namespace kedge
       return result;
     }
 
-    /** The index of the name that an entry holds among those of a section. */
-    unsigned int
-    find_name(const ParameterReader &reader,
-              const SectionReader   &section,
-              const std::string     &entry,
-              const std::string     &names_section)
-    {
-      const std::vector<std::string> names = reader.names(names_section);
-      const std::string              name  = section.text(entry);
-      const auto                     found = std::find(names.begin(), names.end(), name);
-      if (found == names.end())
-        throw section.error(entry,
-                            "There is no " + names_section + "/" + name + "." +
-                              (names.empty()
-                                 ? " The section " + names_section + " is empty."
-                                 : " Did you mean '" + nearest_name(name, names) + "'?"));
-      return static_cast<unsigned int>(found - names.begin());
-    }
-
-    /** Exactly one of two entries must be given; true if it is the first. */
-    bool
-    first_is_given(const SectionReader &section, const std::string &a, const std::string &b)
-    {
-      if (section.is_empty(a) && section.is_empty(b))
-        throw section.error(a, "Either " + a + " or " + b + " must be given.");
-      if (!section.is_empty(a) && !section.is_empty(b))
-        throw section.error(b, "Only one of " + a + " and " + b + " may be given.");
-      return !section.is_empty(a);
-    }
-
-
-
     template <int dim>
     GridParameters<dim>
     read_grid(const ParameterReader &reader)
@@ -103,44 +72,6 @@ namespace kedge
       grid.extent  = point<dim>(section, "Extent");
       grid.n_cells = counts<dim>(section, "Cells");
       return grid;
-    }
-
-
-
-    void
-    read_plasticity(const SectionReader &section, MaterialParameters &material)
-    {
-      const std::string radius = "Yield radius rho_y", uniaxial = "Uniaxial yield stress sigma_y";
-      if (section.text("Model") == "hencky")
-        {
-          for (const auto &entry : {radius, uniaxial})
-            if (!section.is_empty(entry))
-              throw section.error(entry, "Model hencky does not yield; did you mean von_mises?");
-          return;
-        }
-      material.kind              = MaterialKind::von_mises;
-      material.yield_stress      = first_is_given(section, radius, uniaxial)
-                                     ? std::sqrt(1.5) * section.number(radius)
-                                     : section.number(uniaxial);
-      material.hardening_modulus = section.number("Hardening modulus");
-    }
-
-
-
-    std::vector<MaterialParameters>
-    read_materials(const ParameterReader &reader)
-    {
-      std::vector<MaterialParameters> materials;
-      for_each_name(reader, "Materials", [&](const SectionReader &section) {
-        MaterialParameters material;
-        material.name          = section.name();
-        material.density       = section.number("Density");
-        material.young_modulus = section.number("Young's modulus");
-        material.poisson_ratio = section.number("Poisson's ratio");
-        read_plasticity(section, material);
-        materials.push_back(material);
-      });
-      return materials;
     }
 
 
@@ -355,10 +286,26 @@ namespace kedge
       TransferParameters  transfer;
       transfer.velocity_mapping =
         section.text("Velocity") == "pic" ? VelocityUpdate::pic : VelocityUpdate::flip;
-      transfer.lumping          = section.number("Lumping");
-      transfer.smallest_filling = section.number("Smallest filling");
-      transfer.audit            = section.truth("Audit");
+      transfer.lumping = section.number("Lumping");
+      transfer.audit   = section.truth("Audit");
       return transfer;
+    }
+
+    StabilisationParameters
+    read_stabilisation(const ParameterReader &reader)
+    {
+      static const std::map<std::string, StabilisationKind> methods = {
+        {"aggregation", StabilisationKind::aggregation},
+        {"ghost", StabilisationKind::ghost},
+        {"none", StabilisationKind::none}};
+
+      const SectionReader     section(reader, {"Stabilisation"});
+      StabilisationParameters stabilisation;
+      stabilisation.method                 = methods.at(section.text("Method"));
+      stabilisation.smallest_filling       = section.number("Smallest filling");
+      stabilisation.ghost_mass_factor      = section.number("Ghost mass factor");
+      stabilisation.ghost_stiffness_factor = section.number("Ghost stiffness factor");
+      return stabilisation;
     }
 
 
@@ -462,6 +409,7 @@ namespace kedge
     scene.newton          = read_newton(reader);
     scene.linear_solver   = read_linear_solver(reader);
     scene.transfer        = read_mapping(reader);
+    scene.stabilisation   = read_stabilisation(reader);
     scene.output          = read_output(reader, scene.time);
     scene.probes          = read_probes<dim>(reader);
     scene.checks          = read_checks(reader, scene.time);

@@ -243,11 +243,13 @@ namespace kedge
   ValuePattern
   ValuePatterns<dim>::component_condition() const
   {
-    return ValuePattern("free | fixed | displacement(expression of t) [m, since the start] | "
-                        "velocity(expression of t) [m/s]",
-                        [c = constants](const auto &text) {
-                          parse_component_condition(text, *c);
-                        });
+    return ValuePattern(
+      "free | fixed | displacement(expression of t) [m, since the start] | "
+      "velocity(expression of t) [m/s] | motion(expression of x, y, z, t, dt) [m, "
+      "from t to t + dt, of a node at x, y, z]",
+      [c = constants](const auto &text) {
+        parse_component_condition(text, *c);
+      });
   }
 
 

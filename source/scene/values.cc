@@ -224,11 +224,20 @@ namespace kedge
         condition.expression = argument;
         Expression(argument, {"t"}, constants);
       }
+    else if (split_call(text, name, argument) && name == "motion")
+      {
+        condition.kind       = ConditionKind::motion;
+        condition.expression = argument;
+        if (constants.count("dt") > 0)
+          throw UserError("Within motion() dt is the step; give the constant dt another name.");
+        Expression(argument, motion_variables(), constants);
+      }
     else
-      throw UserError("It must be free, fixed, displacement(expression of t) or "
-                      "velocity(expression of t); did you mean " +
+      throw UserError("It must be free, fixed, displacement(expression of t), "
+                      "velocity(expression of t) or motion(expression of x, y, z, t, dt); "
+                      "did you mean " +
                       nearest_name(text.substr(0, text.find('(')),
-                                   {"free", "fixed", "displacement", "velocity"}) +
+                                   {"free", "fixed", "displacement", "velocity", "motion"}) +
                       "?");
     return condition;
   }

@@ -28,7 +28,7 @@ namespace kedge
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
       probe_names.push_back(probe.name);
-    verify_checks<dim>(scene.checks, columns(), probe_names);
+    verify_checks<dim>(scene.checks, columns().names(), probe_names);
 
     engine.create_points();
     if (options.resume)
@@ -102,7 +102,10 @@ namespace kedge
   HistoryColumns
   Simulation<dim>::columns() const
   {
-    HistoryColumns columns = {dim, engine.has_plasticity(), false, {}};
+    HistoryColumns columns = {dim,
+                              engine.has_plasticity(),
+                              scene.stabilisation.method == StabilisationKind::ghost,
+                              {}};
     for (const auto &condition : scene.node_conditions)
       if (condition.reaction)
         for (int d = 0; d < dim; ++d)
@@ -164,14 +167,16 @@ namespace kedge
     engine.accept_step();
     clock.advance(step.newton.iterations);
     totals.external_work += engine.work_of_last_step();
+    totals.ghost_work += engine.ghost_work_of_last_step();
 
-    row.step              = clock.n_steps();
-    row.time              = clock.time();
-    row.newton_iterations = step.newton.iterations;
-    row.linear_iterations = step.newton.linear_iterations;
-    row.rejected_attempts = static_cast<unsigned int>(totals.rejected_pending);
-    row.external_work     = totals.external_work;
-    row.reactions         = reactions();
+    row.step                 = clock.n_steps();
+    row.time                 = clock.time();
+    row.newton_iterations    = step.newton.iterations;
+    row.linear_iterations    = step.newton.linear_iterations;
+    row.rejected_attempts    = static_cast<unsigned int>(totals.rejected_pending);
+    row.external_work        = totals.external_work;
+    row.stabilisation_energy = totals.ghost_work;
+    row.reactions            = reactions();
     engine.write_books(row);
     row.energy_error = row.total_energy() + row.plastic_dissipation + row.stabilisation_energy -
                        totals.initial_energy - row.external_work;

@@ -1,87 +1,28 @@
+#include <kedge/solid/group_dilatation.h>
 #include <kedge/solid/point_update.h>
+#include <kedge/stress/mean_dilatation.h>
 
 namespace kedge
 {
   namespace
   {
-    /**
-     * Energies and history at the end of the step, and the stretches
-     * exp(d eps^p_i) by which the trial elastic stretches are too long.
-     */
-    template <int dim, class Material>
-    void
-    update_history(const Material                      &material,
-                   const StressState<dim>              &state,
-                   const MaterialHistory               &history,
-                   const RelativeStress<dim, Material> &r,
-                   double (&plastic_stretch)[3],
-                   PointUpdate<dim> &update)
-    {
-      double strain[3];
-      for (int i = 0; i < 3; ++i)
-        {
-          strain[i]          = state.strain[i] + r.increment[i];
-          plastic_stretch[i] = 1.;
-          if constexpr (Material::has_history)
-            {
-              const double plastic = material.plastic_increment(r.response, i);
-              strain[i] -= plastic;
-              plastic_stretch[i] = std::exp(plastic);
-            }
-        }
-      update.strain_energy             = material.energy(strain);
-      update.hardening_energy          = 0.;
-      update.dissipation               = 0.;
-      update.equivalent_plastic_strain = 0.;
-      if constexpr (Material::has_history)
-        {
-          const MaterialHistory end        = material.updated(r.response, history);
-          update.hardening_energy          = material.hardening_energy(end);
-          update.dissipation               = material.dissipation(r.response);
-          update.equivalent_plastic_strain = end.equivalent_plastic_strain;
-        }
-    }
-
+    /** Updates a point that takes the change of volume @p increment of its group. */
     template <int dim, class Material>
     bool
-    update_one(const Material         &material,
-               const StressState<dim> &state,
-               const MaterialHistory  &history,
-               const double (&A)[dim][dim],
-               PointUpdate<dim> &update)
+    update_one_of_group(const Material         &material,
+                        const StressState<dim> &state,
+                        const MaterialHistory  &history,
+                        const double (&A)[dim][dim],
+                        const double      increment,
+                        PointUpdate<dim> &update)
     {
-      double E[n_symmetric<dim>];
-      relative_strain<dim>(A, E);
-      const auto r = evaluate_relative_stress<dim>(material, state, E, history);
-      if (!r.valid || !(relative_determinant<dim>(A) > 0.))
-        return false;
-
-      const auto &tau = r.response.kirchhoff_stress;
-      double      plastic_stretch[3];
-      update_history(material, state, history, r, plastic_stretch, update);
-      update.out_of_plane_stress         = dim == 2 ? tau[2] : 0.;
-      update.out_of_plane_stretch_factor = 1. / plastic_stretch[2];
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          {
-            update.relative_gradient[i][j] = A[i][j];
-            update.elastic_frame[i][j]     = r.frame[i][j];
-            for (int k = 0; k < dim; ++k)
-              update.elastic_frame[i][j] += A[i][k] * r.frame[k][j];
-          }
-      for (int s = 0; s < n_symmetric<dim>; ++s)
-        {
-          const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
-          update.kirchhoff_stress[s] = 0.;
-          for (int k = 0; k < dim; ++k)
-            update.kirchhoff_stress[s] +=
-              tau[k] / r.lambda[k] * update.elastic_frame[i][k] * update.elastic_frame[j][k];
-        }
-      if constexpr (Material::has_history)
-        for (auto &row : update.elastic_frame)
-          for (int k = 0; k < dim; ++k)
-            row[k] /= plastic_stretch[k];
-      return true;
+      const double strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
+      return update_point<dim>(MeanDilatation<Material>(material, material.bulk_modulus * strain),
+                               state,
+                               history,
+                               A,
+                               update,
+                               (increment - relative_volume_strain<dim>(A)) / 3.);
     }
 
     /**
@@ -121,11 +62,17 @@ namespace kedge
                          std::vector<PointUpdate<dim>> &updates)
   {
     updates.resize(points.size());
+    GroupDilatation   dilatation;
+    const PointStatus groups =
+      evaluate_group_dilatation(points, window, nodes, displacement, 1., dilatation);
+    if (!groups.ok())
+      return groups.failed_slot;
     std::vector<dealii::Tensor<2, dim>> gradients;
     gradients_at_points(points, window, nodes, displacement, gradients);
     for (const auto &batch : points.batches)
       {
-        const unsigned int failed = std::visit(
+        const bool         grouped = points.is_grouped(batch);
+        const unsigned int failed  = std::visit(
           [&](const auto &material) {
             for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
               {
@@ -133,12 +80,18 @@ namespace kedge
                 for (int i = 0; i < dim; ++i)
                   for (int j = 0; j < dim; ++j)
                     A[i][j] = gradients[slot][i][j];
-                if (!update_one<dim>(material,
-                                     points.stress_state[slot],
-                                     points.template history_of<std::decay_t<decltype(material)>>(
-                                       slot),
-                                     A,
-                                     updates[slot]))
+                const auto &state = points.stress_state[slot];
+                const auto  history =
+                  points.template history_of<std::decay_t<decltype(material)>>(slot);
+                const bool ok =
+                  grouped ? update_one_of_group<dim>(material,
+                                                     state,
+                                                     history,
+                                                     A,
+                                                     dilatation.increment[points.group[slot]],
+                                                     updates[slot])
+                           : update_point<dim>(material, state, history, A, updates[slot]);
+                if (!ok)
                   return slot;
               }
             return PointStatus::none;

@@ -34,7 +34,8 @@ namespace kedge
                             const NodeTies<dim>       &ties,
                             const StepPoints<dim>     &points,
                             const NodeMatrix<dim>     &mass,
-                            const int                  stencil_radius,
+                            const NodeMatrix<dim>     *ghost_stiffness,
+                            const int                  stiffness_radius,
                             const bool                 new_pattern)
   {
     this->grid       = &grid;
@@ -43,9 +44,10 @@ namespace kedge
     this->ties       = &ties;
     this->points     = &points;
     this->mass       = &mass;
+    this->penalty    = ghost_stiffness;
     if (!new_pattern)
       return;
-    stiffness.reinit(nodes.n_local(), dim, stencil_radius);
+    stiffness.reinit(nodes.n_local(), dim, stiffness_radius);
     status.resize(std::size_t(nodes.n_local()) * dim);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       for (int d = 0; d < dim; ++d)
@@ -139,6 +141,8 @@ namespace kedge
     const std::vector<double> &u      = state->displacement;
     std::fill(internal.begin(), internal.end(), 0.);
     const PointStatus answer = internal_force.add_force(*points, window, *nodes, u, internal);
+    if (penalty != nullptr)
+      add_ghost_force();
     ties->restrict_sums(internal);
     nodes->add_to_owners(internal, dim);
     if (scheme.dynamic)
@@ -191,17 +195,31 @@ namespace kedge
 
   template <int dim>
   void
-  SolidProblem<dim>::add_inertia_to_stiffness()
+  SolidProblem<dim>::add_ghost_force()
   {
-    const double coefficient = scheme.inertia_coefficient(dt);
+    std::vector<double> force(internal.size());
+    multiply(*penalty, grid->window(), *nodes, dim, state->displacement, force);
+    for (std::size_t i = 0; i < force.size(); ++i)
+      internal[i] += scheme.alpha_f * force[i];
+  }
+
+
+
+  template <int dim>
+  void
+  SolidProblem<dim>::add_to_diagonal_blocks(const double coefficient, const NodeMatrix<dim> &matrix)
+  {
+    std::vector<unsigned int> slots(matrix.n_slots()); // of the matrix, in the wider stiffness
+    for (unsigned int s = 0; s < slots.size(); ++s)
+      slots[s] = stiffness.slot(matrix.offset(s));
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       {
-        const double *mass_row = mass->row(i, 0);
+        const double *matrix_row = matrix.row(i, 0);
         for (int p = 0; p < dim; ++p)
           {
             double *row = stiffness.row(i, p);
-            for (unsigned int s = 0; s < stiffness.n_slots(); ++s)
-              row[s * dim + p] += coefficient * mass_row[s];
+            for (unsigned int s = 0; s < slots.size(); ++s)
+              row[slots[s] * dim + p] += coefficient * matrix_row[s];
           }
       }
   }
@@ -215,8 +233,10 @@ namespace kedge
     const Stopwatch stopwatch(timings_.tangent);
     stiffness.set_zero();
     internal_force.add_stiffness(*points, grid->window(), *nodes, state->displacement, stiffness);
+    if (penalty != nullptr)
+      add_to_diagonal_blocks(scheme.alpha_f, *penalty);
     if (scheme.dynamic)
-      add_inertia_to_stiffness();
+      add_to_diagonal_blocks(scheme.inertia_coefficient(dt), *mass);
     equations.fill(*nodes, stiffness);
     const SparseSystem &system = equations.system();
     for (unsigned int e = 0; e < system.n_rows(); ++e)

@@ -2,6 +2,7 @@
 
 #include <kedge/base/exceptions.h>
 #include <kedge/io/checks.h>
+#include <kedge/io/history_writer.h>
 #include <kedge/io/probe_writer.h>
 
 #include <gtest/gtest.h>
@@ -154,7 +155,7 @@ TEST(IoChecks, NamesAreVerifiedBeforeTheRun)
     checks[0].column    = column;
     try
       {
-        verify_checks<2>(checks, {2, false, false}, {"tip"});
+        verify_checks<2>(checks, HistoryColumns().names(), {"tip"});
       }
     catch (const UserError &error)
       {

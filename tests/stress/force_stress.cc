@@ -22,34 +22,6 @@ namespace
     return Hencky(parameters);
   }
 
-  /** The same state for the reference; tensors outside the plane are those of plane strain. */
-  template <int dim>
-  State
-  reference_state(const PointState<dim> &point)
-  {
-    Matrix B = Matrix::identity(), F = Matrix::identity();
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j)
-        {
-          B[i][j] = point.elastic_frame[i][j];
-          F[i][j] = point.deformation_gradient[i][j];
-        }
-    if (dim == 2)
-      B[2][2] = point.out_of_plane_elastic_stretch;
-    return {B * transpose(B), F * transpose(F)};
-  }
-
-  template <int dim>
-  Matrix
-  to_matrix(const double (&A)[dim][dim])
-  {
-    Matrix result;
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j)
-        result[i][j] = A[i][j];
-    return result;
-  }
-
   template <typename Dimension>
   class StressForce : public testing::Test
   {};
@@ -60,26 +32,6 @@ namespace
   evaluate(const StressState<dim> &state, const double (&A)[dim][dim], const double alpha)
   {
     return evaluate_force_stress<dim, with_tangent, rule>(material(), state, A, alpha);
-  }
-
-  /** P of the reference for either rule; A is the whole step. */
-  Force
-  evaluate_reference(const StressRule rule, const State &state, const Matrix &A, const double alpha)
-  {
-    return rule == StressRule::conserving
-             ? conserving(material(), state, A)
-             : at_configuration(material(), state, combine(alpha, A, 0, A));
-  }
-
-  template <int dim>
-  double
-  largest_difference(const double (&P)[dim][dim], const Matrix &expected)
-  {
-    double largest = 0.;
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j)
-        largest = std::max(largest, std::abs(static_cast<double>(P[i][j] - expected[i][j])));
-    return largest;
   }
 
   /** Sum of P_ij A_ij. */
@@ -124,7 +76,7 @@ namespace
         const auto result = evaluate<dim, rule>(make_stress_state(point), A, alpha);
         ASSERT_TRUE(result.valid);
         const Force expected =
-          evaluate_reference(rule, reference_state<dim>(point), to_matrix<dim>(A), alpha);
+          force(rule, material(), reference_state<dim>(point), to_matrix<dim>(A), alpha);
         // strains of order 1 (G = 1) carry round-off of a few 1e-16
         EXPECT_LT(largest_difference<dim>(result.stress, expected.stress), 1e-14);
         // ... and their work over the step in proportion to the step
@@ -143,25 +95,14 @@ namespace
       [&](const PointState<dim> &point, const double(&A)[dim][dim], const double size) {
         const auto result = evaluate<dim, rule, true>(make_stress_state(point), A, alpha);
         ASSERT_TRUE(result.valid);
-        const State  state   = reference_state<dim>(point);
-        const double h       = 1e-5 * size; // the CLC stress bends on the scale of the step itself
-        double       largest = 0.;
-        for (int m = 0; m < dim; ++m)
-          for (int S = 0; S < dim; ++S)
-            {
-              Matrix plus = to_matrix<dim>(A), minus = plus;
-              plus[m][S] += h;
-              minus[m][S] -= h;
-              const Matrix slope = combine(0.5 / Quad(h),
-                                           evaluate_reference(rule, state, plus, alpha).stress,
-                                           -0.5 / Quad(h),
-                                           evaluate_reference(rule, state, minus, alpha).stress);
-              for (int p = 0; p < dim; ++p)
-                for (int R = 0; R < dim; ++R)
-                  largest = std::max(largest,
-                                     std::abs(result.tangent[p][R][m][S] -
-                                              static_cast<double>(slope[p][R])));
-            }
+        // the CLC stress bends on the scale of the step itself
+        const double largest = tangent_error(result,
+                                             rule,
+                                             material(),
+                                             reference_state<dim>(point),
+                                             A,
+                                             alpha,
+                                             1e-5 * size);
         // Entries are of order 1. The differences err by (h/size)^2 = 1e-10; the
         // slope of q loses digits to 1e-16/size, and is left out below 1e-8 where
         // it is of the order of the step.

@@ -1,9 +1,11 @@
-// The stresses of a Hencky material evaluated anew with 113-bit numbers: no
-// principal axes, the logarithm from repeated square roots and a series.
+// The stresses of Hencky's and von Mises' materials evaluated anew with 113-bit
+// numbers: no principal axes, the logarithm from repeated square roots and a series.
 #ifndef kedge_tests_stress_quad_reference_h
 #define kedge_tests_stress_quad_reference_h
 
-#include <kedge/materials/hencky.h>
+#include <kedge/materials/von_mises.h>
+#include <kedge/points/point_state.h>
+#include <kedge/stress/force_stress.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
@@ -139,67 +141,223 @@ namespace kedge::reference
     return combine(1 << n_roots, sum, 0, sum);
   }
 
+  /** A committed state: b^e_n, b_n of the total deformation, and alpha_n. */
+  struct State
+  {
+    Matrix elastic_left_cauchy_green, left_cauchy_green;
+    Quad   equivalent_plastic_strain = 0;
+  };
+
   /** What a point can say of one state of strain. */
   struct Answer
   {
-    Matrix kirchhoff_stress;
-    Quad   energy;
+    Matrix kirchhoff_stress, elastic_strain;
+    Quad   elastic_energy;
+    Quad   hardening_energy          = 0;
+    Quad   dissipation               = 0; ///< of the step
+    Quad   equivalent_plastic_strain = 0;
+
+    Quad
+    energy() const
+    {
+      return elastic_energy + hardening_energy;
+    }
   };
+
+  inline Answer
+  hencky_of_strain(const Hencky &material, const Matrix &strain)
+  {
+    Answer answer;
+    answer.elastic_strain   = strain;
+    answer.kirchhoff_stress = combine(2 * Quad(material.shear_modulus),
+                                      strain,
+                                      Quad(material.lame_modulus) * trace(strain),
+                                      Matrix::identity());
+    answer.elastic_energy   = contract(answer.kirchhoff_stress, strain) / 2;
+    return answer;
+  }
 
   inline Answer
   hencky(const Hencky &material, const Matrix &elastic_left_cauchy_green)
   {
-    const Matrix strain = combine(0.5, logarithm(elastic_left_cauchy_green), 0, Matrix());
-    const Quad   volume = trace(strain);
-    Answer       answer;
-    answer.kirchhoff_stress = combine(2 * Quad(material.shear_modulus),
-                                      strain,
-                                      Quad(material.lame_modulus) * volume,
-                                      Matrix::identity());
-    answer.energy           = contract(answer.kirchhoff_stress, strain) / 2;
+    return hencky_of_strain(material,
+                            combine(0.5, logarithm(elastic_left_cauchy_green), 0, Matrix()));
+  }
+
+  // the answer of a law in the committed state, and after the step F
+
+  inline Answer
+  committed(const Hencky &material, const State &state)
+  {
+    return hencky(material, state.elastic_left_cauchy_green);
+  }
+
+  inline Answer
+  after_step(const Hencky &material, const State &state, const Matrix &F)
+  {
+    return hencky(material, F * state.elastic_left_cauchy_green * transpose(F));
+  }
+
+  inline Quad
+  hardening_energy(const VonMises &material, const Quad equivalent_plastic_strain)
+  {
+    return Quad(material.hardening_modulus) * equivalent_plastic_strain *
+           equivalent_plastic_strain / 2;
+  }
+
+  inline Answer
+  committed(const VonMises &material, const State &state)
+  {
+    Answer answer                    = hencky(material.elastic, state.elastic_left_cauchy_green);
+    answer.hardening_energy          = hardening_energy(material, state.equivalent_plastic_strain);
+    answer.equivalent_plastic_strain = state.equivalent_plastic_strain;
     return answer;
   }
 
-  /** A committed state: b^e_n, and b_n of the total deformation. */
-  struct State
+  /** The plastic strain is taken off the trial strain as a tensor; energies are summed up. */
+  inline Answer
+  after_step(const VonMises &material, const State &state, const Matrix &F)
   {
-    Matrix elastic_left_cauchy_green, left_cauchy_green;
-  };
+    const Answer trial =
+      hencky(material.elastic, F * state.elastic_left_cauchy_green * transpose(F));
+    const Matrix s =
+      combine(1, trial.kirchhoff_stress, -trace(trial.kirchhoff_stress) / 3, Matrix::identity());
+    const Quad norm = sqrt(contract(s, s)), root = sqrt(Quad(2) / 3);
+    const Quad excess = norm - root * (material.yield_stress + Quad(material.hardening_modulus) *
+                                                                 state.equivalent_plastic_strain);
+    const Quad multiplier = excess > 0 ? excess / (2 * Quad(material.elastic.shear_modulus) +
+                                                   2 * Quad(material.hardening_modulus) / 3)
+                                       : Quad(0);
+
+    Answer answer                    = multiplier > 0
+                                         ? hencky_of_strain(material.elastic,
+                                         combine(1, trial.elastic_strain, -multiplier / norm, s))
+                                         : trial;
+    answer.equivalent_plastic_strain = state.equivalent_plastic_strain + root * multiplier;
+    answer.hardening_energy          = hardening_energy(material, answer.equivalent_plastic_strain);
+    answer.dissipation               = material.yield_stress * root * multiplier;
+    return answer;
+  }
 
   /** A S as evaluate_force_stress() should give it, and the work of the step. */
   struct Force
   {
     Matrix stress; ///< P
-    Quad   work;
+    Quad   work;   ///< dPsi + dD
   };
 
   /** P of StressRule::at_configuration at I + A. */
+  template <class Material>
   inline Force
-  at_configuration(const Hencky &material, const State &state, const Matrix &A)
+  at_configuration(const Material &material, const State &state, const Matrix &A)
   {
-    const Matrix F      = combine(1, Matrix::identity(), 1, A);
-    const Answer before = hencky(material, state.elastic_left_cauchy_green);
-    const Answer after  = hencky(material, F * state.elastic_left_cauchy_green * transpose(F));
-    return {after.kirchhoff_stress * transpose(inverse(F)), after.energy - before.energy};
+    const Matrix F   = combine(1, Matrix::identity(), 1, A);
+    const Answer end = after_step(material, state, F);
+    return {end.kirchhoff_stress * transpose(inverse(F)),
+            end.energy() - committed(material, state).energy() + end.dissipation};
   }
 
   /** P of StressRule::conserving by the printed quotient (3.142), which 113 bits bear. */
+  template <class Material>
   inline Force
-  conserving(const Hencky &material, const State &state, const Matrix &A)
+  conserving(const Material &material, const State &state, const Matrix &A)
   {
     const Matrix one   = Matrix::identity();
     const Matrix F     = combine(1, one, 1, A);
     const Matrix E     = combine(1, transpose(F) * F, -1, one);
-    const Answer begin = hencky(material, state.elastic_left_cauchy_green);
-    const Answer end   = hencky(material, F * state.elastic_left_cauchy_green * transpose(F));
-    const Matrix pull  = inverse(F);
+    const Answer begin = committed(material, state), end = after_step(material, state, F);
+    const Matrix pull = inverse(F);
     const Matrix mean =
       combine(0.5, begin.kirchhoff_stress, 0.5, pull * end.kirchhoff_stress * transpose(pull));
     const Matrix N      = state.left_cauchy_green * E * state.left_cauchy_green;
-    const Quad   work   = end.energy - begin.energy;
+    const Quad   work   = end.energy() - begin.energy() + end.dissipation;
     const Quad   square = contract(E, N);
     const Quad   q      = square == 0 ? Quad(0) : (2 * work - contract(mean, E)) / square;
     return {combine(1, one, 0.5, A) * combine(1, mean, q, N), work};
+  }
+
+  /** P of either rule; A is the whole step. */
+  template <class Material>
+  inline Force
+  force(const StressRule rule,
+        const Material  &material,
+        const State     &state,
+        const Matrix    &A,
+        const double     alpha)
+  {
+    return rule == StressRule::conserving
+             ? conserving(material, state, A)
+             : at_configuration(material, state, combine(alpha, A, 0, A));
+  }
+
+  /** The same state for the reference; tensors outside the plane are those of plane strain. */
+  template <int dim>
+  inline State
+  reference_state(const PointState<dim> &point)
+  {
+    Matrix B = Matrix::identity(), F = Matrix::identity();
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        {
+          B[i][j] = point.elastic_frame[i][j];
+          F[i][j] = point.deformation_gradient[i][j];
+        }
+    if (dim == 2)
+      B[2][2] = point.out_of_plane_elastic_stretch;
+    return {B * transpose(B), F * transpose(F), point.equivalent_plastic_strain};
+  }
+
+  template <int dim>
+  inline Matrix
+  to_matrix(const double (&A)[dim][dim])
+  {
+    Matrix result;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        result[i][j] = A[i][j];
+    return result;
+  }
+
+  template <int dim>
+  inline double
+  largest_difference(const double (&P)[dim][dim], const Matrix &expected)
+  {
+    double largest = 0.;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        largest = std::max(largest, std::abs(static_cast<double>(P[i][j] - expected[i][j])));
+    return largest;
+  }
+
+  /** dP/dA of the reference by central differences with steps @p h. */
+  template <int dim, class Material>
+  inline double
+  tangent_error(const ForceStress<dim> &result,
+                const StressRule        rule,
+                const Material         &material,
+                const State            &state,
+                const double (&A)[dim][dim],
+                const double alpha,
+                const double h)
+  {
+    double largest = 0.;
+    for (int m = 0; m < dim; ++m)
+      for (int S = 0; S < dim; ++S)
+        {
+          Matrix plus = to_matrix<dim>(A), minus = plus;
+          plus[m][S] += h;
+          minus[m][S] -= h;
+          const Matrix slope = combine(0.5 / Quad(h),
+                                       force(rule, material, state, plus, alpha).stress,
+                                       -0.5 / Quad(h),
+                                       force(rule, material, state, minus, alpha).stress);
+          for (int p = 0; p < dim; ++p)
+            for (int R = 0; R < dim; ++R)
+              largest =
+                std::max(largest,
+                         std::abs(result.tangent[p][R][m][S] - static_cast<double>(slope[p][R])));
+        }
+    return largest;
   }
 } // namespace kedge::reference
 

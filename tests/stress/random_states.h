@@ -2,7 +2,7 @@
 #ifndef kedge_tests_stress_random_states_h
 #define kedge_tests_stress_random_states_h
 
-#include <kedge/materials/hencky.h>
+#include <kedge/materials/von_mises.h>
 #include <kedge/transfer/step_points.h>
 
 #include <random>
@@ -105,13 +105,44 @@ namespace kedge::test
             {
               const double tau =
                 material.lame_modulus * volume + 2. * material.shear_modulus * std::log(stretch[j]);
-              if (k == 0)
-                state.elastic_frame[i][j] = V[i][j] * stretch[j];
+              if (k == 0) // at rest exactly, not up to the rounding of V
+                state.elastic_frame[i][j] =
+                  spectrum == Spectrum::identity ? (i == j ? 1. : 0.) : V[i][j] * stretch[j];
               state.deformation_gradient[i][k] += V[i][j] * stretch[j] * Q[k][j];
               if (i <= k)
                 state.kirchhoff_stress[i][k] += V[i][j] * tau * V[k][j];
             }
       return state;
+    }
+
+    /**
+     * A material for which the state is admissible, its deviatoric stress at a
+     * distance @p gap [Pa] from the yield surface; hardens by @p hardening. The
+     * state gets a plastic strain if the material hardens.
+     */
+    VonMises
+    material_about(PointState<dim>          &state,
+                   const MaterialParameters &elasticity,
+                   const double              hardening,
+                   const double              gap)
+    {
+      const Hencky elastic(elasticity);
+      const auto   response = elastic.respond(make_stress_state(state).strain, {0., 0., 0.});
+      const auto  &tau      = response.kirchhoff_stress;
+      const double pressure = (tau[0] + tau[1] + tau[2]) / 3.;
+      double       square   = 0.;
+      for (const double principal : tau)
+        square += (principal - pressure) * (principal - pressure);
+      const double yield_stress = std::sqrt(1.5) * (std::sqrt(square) + gap);
+
+      MaterialParameters parameters   = elasticity;
+      parameters.hardening_modulus    = hardening;
+      state.equivalent_plastic_strain = 0.;
+      if (hardening > 0.)
+        state.equivalent_plastic_strain =
+          std::min(uniform(0., 0.3), 0.5 * yield_stress / hardening);
+      parameters.yield_stress = yield_stress - hardening * state.equivalent_plastic_strain;
+      return VonMises(parameters);
     }
 
     /** A step's displacement gradient, entries in [-size, size]. */

@@ -117,6 +117,27 @@ TEST(TimeIntegrationClock, StopsAtTheFloor)
   EXPECT_EQ(clock.floor(), 1. / 1024.);
 }
 
+TEST(TimeIntegrationClock, ABreakTimeNearbyLowersTheFloor)
+{
+  // the step to 0.0005 is half of the ordinary floor, 0.001: it may be cut ten times as any other
+  Clock        clock = make_clock(1.024, 10., {0.0005});
+  unsigned int cuts  = 0;
+  EXPECT_EQ(clock.step_size(), 0.0005);
+  while (clock.cut_step())
+    ++cuts;
+  EXPECT_GE(cuts, 9u); // the first cut may go below one half
+  EXPECT_LE(cuts, 10u);
+
+  // once there, the cuts below the ordinary floor are forgotten
+  Clock other = make_clock(1.024, 10., {0.0005});
+  EXPECT_TRUE(other.cut_step());
+  while (other.time() < 0.0005)
+    other.advance();
+  EXPECT_EQ(other.time(), 0.0005);
+  EXPECT_GE(other.step_size(), 0.001 * (1. - 1e-12));
+  EXPECT_NEAR(other.floor(), 0.001, 1e-15);
+}
+
 TEST(TimeIntegrationClock, GoesOnFromARestoredStateBitForBit)
 {
   Clock clock = make_clock(0.017, 1., {0.4});

@@ -85,9 +85,11 @@ namespace kedge
             const Lattice<dim>      &lattice,
             const LatticeIndex<dim> &node) const;
 
-    std::vector<Condition> conditions;
-    std::vector<short>     condition_of; ///< of each local node and component, or -1
-    bool                   any_moving_ = false;
+    std::vector<Condition>          conditions;
+    std::vector<dealii::Point<dim>> place;        ///< of each local node; empty without motions
+    std::vector<short>              condition_of; ///< of each local node and component, or -1
+    bool                            any_moving_ = false;
+    bool                            needs_place = false; ///< any motion
   };
 } // namespace kedge
 

@@ -25,13 +25,21 @@ namespace kedge
     free,
     fixed,
     displacement, ///< total displacement since the start, expression of t [m]
-    velocity      ///< velocity, expression of t [m/s]
+    velocity,     ///< velocity, expression of t [m/s]
+    motion        ///< displacement over a step, expression of x, y, z, t, dt [m]
   };
+
+  /** What the expression of a ConditionKind::motion may hold, in this order. */
+  inline std::vector<std::string>
+  motion_variables()
+  {
+    return {"x", "y", "z", "t", "dt"};
+  }
 
   struct ComponentCondition
   {
     ConditionKind kind = ConditionKind::free;
-    std::string   expression; ///< of t and the user's constants; for displacement, velocity
+    std::string   expression; ///< for displacement, velocity, motion
   };
 
   /**

@@ -3,7 +3,6 @@
 
 #include <kedge/io/check_result.h>
 #include <kedge/io/csv_file.h>
-#include <kedge/io/history_writer.h>
 #include <kedge/io/parameters.h>
 #include <kedge/io/run_folder.h>
 #include <kedge/points/point_state.h>
@@ -23,7 +22,7 @@ namespace kedge
   template <int dim>
   void
   verify_checks(const std::vector<CheckParameters> &checks,
-                const HistoryColumns               &history,
+                const std::vector<std::string>     &history_columns,
                 const std::vector<std::string>     &probe_names);
 
   /**

@@ -14,6 +14,7 @@ namespace kedge
     std::string                 output;    ///< -o, --output; empty: output/<scene name>
     std::vector<std::string>    settings;  ///< -s, --set, each "Section/Name = value"
     std::optional<unsigned int> n_threads; ///< --threads, at least 1
+    bool                        drive            = false; ///< the scene is a path of one point
     bool                        resume           = false;
     bool                        validate         = false;
     bool                        strict           = false;

@@ -76,7 +76,7 @@ namespace kedge
   unsigned int
   parse_side(const std::string &text);
 
-  /** free, fixed, displacement(expression of t) or velocity(expression of t). */
+  /** free, fixed, displacement(of t), velocity(of t) or motion(of x, y, z, t, dt). */
   ComponentCondition
   parse_component_condition(const std::string                   &text,
                             const std::map<std::string, double> &constants);

@@ -44,6 +44,7 @@ namespace kedge
     struct Totals
     {
       double        external_work      = 0.;
+      double        ghost_work         = 0.;
       double        initial_energy     = 0.;
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
       double        points_times_steps = 0.;

@@ -1,0 +1,170 @@
+#ifndef kedge_stress_point_update_h
+#define kedge_stress_point_update_h
+
+#include <kedge/stress/relative_stress.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+namespace kedge
+{
+  /** The history of a material point at the end of a converged step, not yet committed. */
+  template <int dim>
+  struct PointUpdate
+  {
+    double relative_gradient[dim][dim];        ///< A = d(Delta u)/dx_n
+    double elastic_frame[dim][dim];            ///< B_{n+1}
+    double kirchhoff_stress[n_symmetric<dim>]; ///< tau_{n+1} [Pa]
+    double out_of_plane_stress;                ///< [Pa]
+    double out_of_plane_stretch_factor;        ///< of the elastic stretch, plane strain
+    double strain_energy;                      ///< per V0 [J/m^3]
+    // of a material with a history
+    double hardening_energy;          ///< per V0 [J/m^3]
+    double dissipation;               ///< of this step, per V0 [J/m^3]
+    double equivalent_plastic_strain; ///< at the end of the step
+  };
+
+  /**
+   * The stress state of a committed history: B with B B^T = b^e_n, the elastic
+   * stretch out of the plane (plane strain, else 1), F_n and tau_n.
+   */
+  template <int dim>
+  inline StressState<dim>
+  make_stress_state(const dealii::Tensor<2, dim>          &elastic_frame,
+                    const double                           out_of_plane_elastic_stretch,
+                    const dealii::Tensor<2, dim>          &deformation_gradient,
+                    const dealii::SymmetricTensor<2, dim> &kirchhoff_stress)
+  {
+    StressState<dim> result;
+    for (int i = 0; i < dim; ++i)
+      {
+        double square = 0.;
+        for (int k = 0; k < dim; ++k)
+          {
+            result.elastic_frame[k][i] = elastic_frame[k][i];
+            square += elastic_frame[k][i] * elastic_frame[k][i];
+          }
+        result.squared_stretch[i] = square;
+        result.strain[i]          = 0.5 * std::log(square);
+      }
+    if (dim == 2)
+      result.strain[2] = std::log(out_of_plane_elastic_stretch);
+    for (int s = 0; s < n_symmetric<dim>; ++s)
+      {
+        const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
+        double    sum = 0.;
+        for (int k = 0; k < dim; ++k)
+          sum += deformation_gradient[i][k] * deformation_gradient[j][k];
+        result.left_cauchy_green[s] = sum;
+        result.kirchhoff_stress[s]  = kirchhoff_stress[i][j];
+      }
+    return result;
+  }
+
+  namespace internal
+  {
+    /**
+     * Energies and history at the end of the step, and the stretches
+     * exp(d eps^p_i) by which the trial elastic stretches are too long.
+     * @p volume_change is added to each principal elastic strain.
+     */
+    template <int dim, class Material>
+    inline void
+    update_history(const Material                      &material,
+                   const StressState<dim>              &state,
+                   const MaterialHistory               &history,
+                   const RelativeStress<dim, Material> &r,
+                   const double                         volume_change,
+                   double (&plastic_stretch)[3],
+                   PointUpdate<dim> &update)
+    {
+      double strain[3];
+      for (int i = 0; i < 3; ++i)
+        {
+          strain[i]          = state.strain[i] + r.increment[i] + volume_change;
+          plastic_stretch[i] = 1.;
+          if constexpr (Material::has_history)
+            {
+              const double plastic = material.plastic_increment(r.response, i);
+              strain[i] -= plastic;
+              plastic_stretch[i] = std::exp(plastic);
+            }
+        }
+      update.strain_energy             = material.energy(strain);
+      update.hardening_energy          = 0.;
+      update.dissipation               = 0.;
+      update.equivalent_plastic_strain = 0.;
+      if constexpr (Material::has_history)
+        {
+          const MaterialHistory end        = material.updated(r.response, history);
+          update.hardening_energy          = material.hardening_energy(end);
+          update.dissipation               = material.dissipation(r.response);
+          update.equivalent_plastic_strain = end.equivalent_plastic_strain;
+        }
+    }
+  } // namespace internal
+
+  /**
+   * Evaluates a point at the end of a step dF = I + A.
+   *
+   * @param history       of the material at the start of the step
+   * @param volume_change added to each principal elastic strain: a third of what
+   *                      the point's volume strain differs from its group's
+   *                      (MeanDilatation), else 0
+   *
+   * @return false if det(I + A) or an elastic stretch is not positive; the
+   * update is unset then
+   */
+  template <int dim, class Material>
+  inline bool
+  update_point(const Material         &material,
+               const StressState<dim> &state,
+               const MaterialHistory  &history,
+               const double (&A)[dim][dim],
+               PointUpdate<dim> &update,
+               const double      volume_change = 0.)
+  {
+    double E[n_symmetric<dim>];
+    relative_strain<dim>(A, E);
+    const auto r = evaluate_relative_stress<dim>(material, state, E, history);
+    if (!r.valid || !(relative_determinant<dim>(A) > 0.))
+      return false;
+
+    const auto &tau = r.response.kirchhoff_stress;
+    double      plastic_stretch[3];
+    internal::update_history(material, state, history, r, volume_change, plastic_stretch, update);
+    update.out_of_plane_stress         = dim == 2 ? tau[2] : 0.;
+    update.out_of_plane_stretch_factor = 1. / plastic_stretch[2];
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        {
+          update.relative_gradient[i][j] = A[i][j];
+          update.elastic_frame[i][j]     = r.frame[i][j];
+          for (int k = 0; k < dim; ++k)
+            update.elastic_frame[i][j] += A[i][k] * r.frame[k][j];
+        }
+    for (int s = 0; s < n_symmetric<dim>; ++s)
+      {
+        const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
+        update.kirchhoff_stress[s] = 0.;
+        for (int k = 0; k < dim; ++k)
+          update.kirchhoff_stress[s] +=
+            tau[k] / r.lambda[k] * update.elastic_frame[i][k] * update.elastic_frame[j][k];
+      }
+    if constexpr (Material::has_history)
+      for (auto &row : update.elastic_frame)
+        for (int k = 0; k < dim; ++k)
+          row[k] /= plastic_stretch[k];
+    if (volume_change != 0.)
+      {
+        const double stretch = std::exp(volume_change);
+        update.out_of_plane_stretch_factor *= stretch;
+        for (auto &row : update.elastic_frame)
+          for (double &entry : row)
+            entry *= stretch;
+      }
+    return true;
+  }
+} // namespace kedge
+
+#endif

@@ -1,0 +1,89 @@
+#ifndef kedge_stress_single_point_h
+#define kedge_stress_single_point_h
+
+#include <kedge/base/expression.h>
+#include <kedge/materials/material.h>
+#include <kedge/stress/parameters.h>
+#include <kedge/stress/point_update.h>
+
+namespace kedge
+{
+  /**
+   * One material point without a body, a grid or inertia: it follows a given
+   * deformation through the same update as the points of a run, so that a
+   * material can be studied and tested alone. Use:
+   * @code
+   *   SinglePoint point(make_material(parameters));
+   *   for (double t = dt; t < end; t += dt)
+   *     if (point.deform_to(F(t)))
+   *       std::cout << point.state().kirchhoff_stress << std::endl;
+   * @endcode
+   */
+  class SinglePoint
+  {
+  public:
+    /** The history at the end of the last step; at the start undeformed and free of stress. */
+    struct State
+    {
+      dealii::Tensor<2, 3>          deformation_gradient;          ///< F
+      dealii::Tensor<2, 3>          elastic_frame;                 ///< B, B B^T = b^e
+      dealii::SymmetricTensor<2, 3> kirchhoff_stress;              ///< tau [Pa]
+      double                        strain_energy             = 0; ///< per V0 [J/m^3]
+      double                        hardening_energy          = 0; ///< per V0 [J/m^3]
+      double                        plastic_dissipation       = 0; ///< so far, per V0 [J/m^3]
+      double                        equivalent_plastic_strain = 0; ///< alpha [-]
+
+      /** tau / det F [Pa] */
+      dealii::SymmetricTensor<2, 3>
+      cauchy_stress() const;
+    };
+
+    explicit SinglePoint(const Material &material);
+
+    /**
+     * What a step from the present state to the deformation gradient @p F
+     * would lead to; nothing is changed. Controls that prescribe stresses
+     * iterate on it.
+     *
+     * @return false if det F or an elastic stretch would not be positive
+     */
+    bool
+    evaluate(const dealii::Tensor<2, 3> &F, PointUpdate<3> &update) const;
+
+    /** Makes a result of evaluate() the present state. */
+    void
+    accept(const PointUpdate<3> &update);
+
+    /** evaluate() and, if it can be done, accept(). */
+    bool
+    deform_to(const dealii::Tensor<2, 3> &F);
+
+    const State &
+    state() const
+    {
+      return present;
+    }
+
+  private:
+    Material material;
+    State    present;
+  };
+
+  /** The deformation gradient of a path as a function of time. */
+  class StrainPath
+  {
+  public:
+    /** @throws UserError for expressions that cannot be read and for F(0) other than I. */
+    StrainPath(const PathParameters &parameters, const std::map<std::string, double> &constants);
+
+    /** F(t), or diag(exp(eps_x), exp(eps_y), exp(eps_z)). */
+    dealii::Tensor<2, 3>
+    deformation_gradient(const double t) const;
+
+  private:
+    bool                    by_strain;
+    std::vector<Expression> expressions;
+  };
+} // namespace kedge
+
+#endif

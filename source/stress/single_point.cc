@@ -1,0 +1,125 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/stress/single_point.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** How far F(0) may be from the identity. */
+    constexpr double start_tolerance = 1e-12;
+  } // namespace
+
+
+
+  dealii::SymmetricTensor<2, 3>
+  SinglePoint::State::cauchy_stress() const
+  {
+    return kirchhoff_stress / determinant(deformation_gradient);
+  }
+
+
+
+  SinglePoint::SinglePoint(const Material &material)
+    : material(material)
+  {
+    present.deformation_gradient = dealii::unit_symmetric_tensor<3>();
+    present.elastic_frame        = dealii::unit_symmetric_tensor<3>();
+  }
+
+
+
+  bool
+  SinglePoint::evaluate(const dealii::Tensor<2, 3> &F, PointUpdate<3> &update) const
+  {
+    // A = dF - I without cancellation
+    const dealii::Tensor<2, 3> gradient =
+      (F - present.deformation_gradient) * invert(present.deformation_gradient);
+    double A[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        A[i][j] = gradient[i][j];
+
+    const StressState<3>  stress_state = make_stress_state<3>(present.elastic_frame,
+                                                             1.,
+                                                             present.deformation_gradient,
+                                                             present.kirchhoff_stress);
+    const MaterialHistory history{present.equivalent_plastic_strain};
+    return std::visit(
+      [&](const auto &law) {
+        return update_point<3>(law, stress_state, history, A, update);
+      },
+      material);
+  }
+
+
+
+  void
+  SinglePoint::accept(const PointUpdate<3> &update)
+  {
+    dealii::Tensor<2, 3> dF;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        {
+          dF[i][j]                    = (i == j ? 1. : 0.) + update.relative_gradient[i][j];
+          present.elastic_frame[i][j] = update.elastic_frame[i][j];
+          if (i <= j)
+            present.kirchhoff_stress[i][j] = update.kirchhoff_stress[symmetric_index<3>(i, j)];
+        }
+    present.deformation_gradient = dF * present.deformation_gradient;
+    present.strain_energy        = update.strain_energy;
+    present.hardening_energy     = update.hardening_energy;
+    present.plastic_dissipation += update.dissipation;
+    present.equivalent_plastic_strain = update.equivalent_plastic_strain;
+  }
+
+
+
+  bool
+  SinglePoint::deform_to(const dealii::Tensor<2, 3> &F)
+  {
+    PointUpdate<3> update;
+    if (!evaluate(F, update))
+      return false;
+    accept(update);
+    return true;
+  }
+
+
+
+  StrainPath::StrainPath(const PathParameters                &parameters,
+                         const std::map<std::string, double> &constants)
+    : by_strain(parameters.by_strain)
+  {
+    const auto read = [&](const auto &texts) {
+      for (const std::string &text : texts)
+        expressions.emplace_back(text, std::vector<std::string>{"t"}, constants);
+    };
+    if (by_strain)
+      read(parameters.logarithmic_strain);
+    else
+      read(parameters.deformation_gradient);
+
+    const dealii::Tensor<2, 3> off_identity =
+      deformation_gradient(0.) - dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
+    if (!(off_identity.norm() <= start_tolerance))
+      throw UserError("A path begins undeformed: at t = 0 " +
+                      std::string(by_strain ? "the strains must be 0."
+                                            : "the deformation gradient must be 1, 0, 0; 0, 1, 0; "
+                                              "0, 0, 1."));
+  }
+
+
+
+  dealii::Tensor<2, 3>
+  StrainPath::deformation_gradient(const double t) const
+  {
+    dealii::Tensor<2, 3> F;
+    for (int i = 0; i < 3; ++i)
+      if (by_strain)
+        F[i][i] = std::exp(expressions[i]({t}));
+      else
+        for (int j = 0; j < 3; ++j)
+          F[i][j] = expressions[3 * i + j]({t});
+    return F;
+  }
+} // namespace kedge

@@ -1,0 +1,162 @@
+// What the reader says of materials that yield, of motions, and of paths.
+#include "scene_text.h"
+
+#include <kedge/scene/path_scene.h>
+
+using namespace scene_tests;
+
+namespace
+{
+  /** The second material of the scene, with further lines. */
+  std::string
+  with_stiff(const std::string &lines)
+  {
+    return with("set Model = hencky", lines);
+  }
+
+  const std::string path_text = R"(set Title = A path
+subsection Constants
+  set g = 2
+end
+subsection Materials
+  subsection soft
+    set Density = 1000
+    set Young's modulus = 1e6
+    set Poisson's ratio = 0.3
+  end
+  subsection metal
+    set Model = von_mises
+    set Density = 8000
+    set Young's modulus = 2e11
+    set Poisson's ratio = 0.3
+    set Yield radius rho_y = 2e8
+    set Hardening modulus = 1e9
+  end
+end
+subsection Path
+  set Material = metal
+  set Deformation gradient = 1, g*t, 0; 0, 1, 0; 0, 0, 1
+  set End = 3
+  set Steps = 30
+end
+subsection Checks
+  subsection stress
+    set Quantity = at(history.kirchhoff_stress_xy)
+    set Time = 2
+    set Reference = 1
+    set Tolerance = 1 %
+    set Source = a table
+  end
+end
+)";
+
+  std::string
+  path_message(const std::string &setting)
+  {
+    try
+      {
+        ParameterFile file = parse(path_text);
+        file.set(setting);
+        read_path_scene(file);
+      }
+    catch (const UserError &error)
+      {
+        return error.what();
+      }
+    return "no error";
+  }
+} // namespace
+
+TEST(ScenePlasticity, TheYieldStressIsGivenInOneOfTwoWays)
+{
+  // sigma_y = sqrt(3/2) rho_y
+  auto read = [](const std::string &text) {
+    return read_scene<2>(parse(text)).materials[1];
+  };
+  const auto by_radius = read(with_stiff("set Model = von_mises\n"
+                                         "    set Yield radius rho_y = h*2e6\n"
+                                         "    set Hardening modulus = 3e5"));
+  EXPECT_EQ(by_radius.kind, MaterialKind::von_mises);
+  EXPECT_NEAR(by_radius.yield_stress, 2449489.742783178, 1e-8);
+  EXPECT_EQ(by_radius.hardening_modulus, 3e5);
+  const auto by_stress =
+    read(with_stiff("set Model = von_mises\n    set Uniaxial yield stress sigma_y = 2e6"));
+  EXPECT_EQ(by_stress.yield_stress, 2e6);
+  EXPECT_EQ(by_stress.hardening_modulus, 0.);
+  EXPECT_EQ(read(full_scene).kind, MaterialKind::hencky);
+}
+
+TEST(ScenePlasticity, YieldEntriesThatDoNotFitAreRefused)
+{
+  expect_parts(message_of(with_stiff("set Model = von_mises")),
+               {"folder/beam.prm:24: Materials/stiff/Yield radius rho_y",
+                "Either Yield radius rho_y or Uniaxial yield stress sigma_y must be given"});
+  expect_parts(message_of(with_stiff("set Model = von_mises\n"
+                                     "    set Yield radius rho_y = 1e6\n"
+                                     "    set Uniaxial yield stress sigma_y = 2e6")),
+               {"folder/beam.prm:27: Materials/stiff/Uniaxial yield stress sigma_y = 2e6",
+                "Only one of"});
+  expect_parts(message_of(with_stiff("set Model = hencky\n    set Yield radius rho_y = 1e6")),
+               {"Materials/stiff/Yield radius rho_y = 1e6", "does not yield", "von_mises?"});
+  expect_parts(message_of(with_stiff("set Uniaxial yield stress sigma_y = 1e6")),
+               {"Materials/stiff/Uniaxial yield stress sigma_y = 1e6", "does not yield"});
+  expect_parts(message_of(with_stiff("set Hardening modulus = 1e6")),
+               {"Materials/stiff/Hardening modulus = 1e6", "does not harden"});
+  const std::string yielding = "set Model = von_mises\n    set Yield radius rho_y = 1e6\n    ";
+  expect_parts(message_of(with_stiff(yielding + "set Hardening modulus = -1")),
+               {"Materials/stiff/Hardening modulus = -1", "at least 0"});
+  for (const std::string value : {"0", "-3"})
+    expect_parts(message_of(
+                   with_stiff("set Model = von_mises\n    set Yield radius rho_y = " + value)),
+                 {"Materials/stiff/Yield radius rho_y = " + value, "greater than 0"});
+  expect_parts(message_of(with_stiff("set Model = von_misses")), {"did you mean von_mises?"});
+}
+
+TEST(ScenePlasticity, MotionsOfNodesAreRead)
+{
+  const auto scene =
+    read_scene<2>(parse(with("Component x = fixed", "Component x = motion(x*(exp(dt) - h) + t)")));
+  const auto &component = scene.node_conditions[0].components[0];
+  EXPECT_EQ(component.kind, ConditionKind::motion);
+  EXPECT_EQ(component.expression, "x*(exp(dt) - h) + t");
+  const std::string entry = "Node conditions/wall/Component x = ";
+  expect_parts(message_of(full_scene, {entry + "motion(X)"}), {"\"X\"", "motion(expression"});
+  expect_parts(message_of(full_scene, {entry + "moton(x)"}), {"did you mean motion?"});
+  expect_parts(message_of(full_scene, {"Constants/dt = 2", entry + "motion(x*dt)"}),
+               {"give the constant dt another name"});
+}
+
+TEST(ScenePath, IsReadWithItsMaterial)
+{
+  const PathScene scene = read_path_scene(parse(path_text));
+  EXPECT_EQ(scene.name, "beam");
+  EXPECT_EQ(scene.title, "A path");
+  EXPECT_EQ(scene.material.name, "metal");
+  EXPECT_EQ(scene.material.hardening_modulus, 1e9);
+  EXPECT_FALSE(scene.path.by_strain);
+  EXPECT_EQ(scene.path.deformation_gradient[1], "g*t");
+  EXPECT_EQ(scene.path.deformation_gradient[8], "1");
+  EXPECT_EQ(scene.path.end, 3.);
+  EXPECT_EQ(scene.path.n_steps, 30u);
+  ASSERT_EQ(scene.checks.size(), 1u);
+  EXPECT_EQ(scene.checks[0].time, 2.);
+  // what is written back reads the same
+  EXPECT_EQ(read_path_scene(parse(scene.parameters)).parameters, scene.parameters);
+}
+
+TEST(ScenePath, WhatDoesNotFitIsRefused)
+{
+  expect_parts(path_message("Path/Material = metl"), {"no Materials/metl", "'metal'"});
+  expect_parts(path_message("Path/Logarithmic strain = t; 0; 0"), {"Only one of"});
+  expect_parts(path_message("Path/Deformation gradient ="),
+               {"Either Deformation gradient or Logarithmic strain"});
+  expect_parts(path_message("Path/Deformation gradient = 1, 0, 0"), {"9 expressions", "not 3"});
+  expect_parts(path_message("Path/Deformation gradient = 1, x, 0; 0, 1, 0; 0, 0, 1"), {"\"x\""});
+  expect_parts(path_message("Path/Steps = 0"), {"at least 1"});
+  expect_parts(path_message("Path/End = 0"), {"greater than 0"});
+  expect_parts(path_message("Checks/stress/Time = 4"), {"Checks/stress/Time = 4"});
+  expect_parts(path_message("Checks/stress/Quantity = last(probe.a.pressure)"), {"no Probes/a"});
+  expect_parts(path_message("Bodies/b/Basis = gimp"), {"no section 'Bodies'"});
+  // a scene holds no path
+  expect_parts(message_of(full_scene, {"Path/Steps = 3"}), {"no section 'Path'"});
+}
