@@ -54,6 +54,20 @@ kedge_add_scene_test(path.turning_strain.half_step prm/paths/turning_strain.prm
   OPTIONS --drive SET "Constants/steps = 400")
 kedge_add_scene_test(path.2ranks prm/paths/simple_shear.prm OPTIONS --drive RANKS 2)
 
+kedge_add_scene_test(scene.discs_plastic_a prm/discs_plastic_a.prm
+  COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.discs_plastic_b prm/discs_plastic_b.prm
+  COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.taylor_bar prm/taylor_bar.prm
+  SET "Constants/n = 25" "Constants/step = 0.75e-6" "Output/Points interval = 0" TIMEOUT 300)
+kedge_add_scene_test(scene.collapse prm/collapse.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.collapse.ample prm/collapse.prm
+  SET "Constants/points = 6" "Time/Scheme = quasi-static" "Constants/books = 0.01")
+kedge_add_scene_test(scene.strip_footing prm/strip_footing.prm
+  SET "Constants/n = 4" COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.necking_bar prm/necking_bar.prm
+  SET "Output/Points interval = 0")
+
 # --- Free fall with every scheme ----------------------------------------------
 foreach(scheme clc-midpoint midpoint trapezoidal newmark generalised-alpha)
   kedge_add_scene_test(scene.falling_body.${scheme} prm/falling_body.prm
@@ -75,6 +89,10 @@ kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
     "Mapping/Audit = true")
 kedge_add_restart_test(scene.restart.ghost prm/spinning_body.prm KILLS 1
   SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Stabilisation/Method = ghost")
+# the clock goes on in the steps that Newton's method has found good
+kedge_add_restart_test(scene.restart.adapted_steps prm/collapse.prm KILLS 1
+  SET "Constants/points = 6" "Constants/steps = 160" "Time/Largest step factor = 4"
+    "Output/Checkpoint every steps = 4")
 kedge_add_restart_test(scene.restart.2ranks prm/quickstart.prm KILLS 2 RANKS 2
   SET "Time/End = 0.5" "Output/Checkpoint every steps = 5")
 

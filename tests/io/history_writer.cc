@@ -70,6 +70,21 @@ TEST(IoHistoryWriter, ColumnsAreThePromisedOnes)
   EXPECT_EQ(table.find("no_such"), nullptr);
 }
 
+TEST(IoHistoryWriter, ReactionsHaveTheColumnsThatAreAskedFor)
+{
+  const test::ScratchFolder scratch;
+  const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
+  HistoryWriter writer(run, {2, false, false, {"reaction_clamp_x", "reaction_clamp_y"}});
+  HistoryRow    row = make_row(1);
+  writer.write(row); // before the first step there are none
+  row.reactions = {3., -1. / 7.};
+  writer.write(row);
+  const CsvTable table = read_csv(scratch / "history.csv");
+  EXPECT_EQ(*table.find("reaction_clamp_x"), (std::vector<double>{0., 3.}));
+  EXPECT_EQ(*table.find("reaction_clamp_y"), (std::vector<double>{0., -1. / 7.}));
+  EXPECT_EQ(table.find("mass")->at(1), 12); // the columns after them
+}
+
 TEST(IoHistoryWriter, RowsAreThereAtOnce)
 {
   const test::ScratchFolder scratch;

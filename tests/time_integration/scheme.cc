@@ -84,6 +84,10 @@ TEST(TimeIntegrationScheme, CoefficientsAreThoseOfTable34)
   EXPECT_EQ(Scheme(linear).gamma, 0.5);
   EXPECT_FALSE(Scheme(parameters_of(SchemeKind::quasi_static)).dynamic);
   EXPECT_EQ(Scheme(parameters_of(SchemeKind::quasi_static)).alpha_f, 1.);
+  const Scheme conserving(parameters_of(SchemeKind::clc_quasi_static));
+  EXPECT_FALSE(conserving.dynamic);
+  EXPECT_TRUE(conserving.conserving_stress);
+  EXPECT_EQ(conserving.alpha_f, 0.5);
 }
 
 TEST(TimeIntegrationScheme, KinematicsOfTable33WithoutItsMisprints)
