@@ -17,12 +17,24 @@ kedge_add_scene_test(scene.cantilever_dynamic_a prm/cantilever_dynamic_a.prm
   COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.cantilever_dynamic_b prm/cantilever_dynamic_b.prm
   SET "Constants/points = 4")
+kedge_add_scene_test(scene.cantilever_dynamic_b_cell_mean prm/cantilever_dynamic_b_cell_mean.prm)
+kedge_add_scene_test(scene.cantilever_dynamic_b_cell_mean.coarse
+  prm/cantilever_dynamic_b_cell_mean.prm
+  SET "Constants/h = 0.5" "Constants/nu = 0.499" COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.discs_elastic prm/discs_elastic.prm
   COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.spinning_body prm/spinning_body.prm
   SET "Constants/h = 1" COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.translating_body prm/translating_body.prm
   COMPARE_RANKS 1e-9)
+# no penalty on a rigid motion: the same checks to the same tolerances
+kedge_add_scene_test(scene.translating_body.ghost prm/translating_body.prm
+  SET "Stabilisation/Method = ghost")
+kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.small_cuts.gimp prm/small_cuts.prm
+  SET "Bodies/square/Basis = gimp" "Constants/shift = 3/8")
+kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm
+  SET "Stabilisation/Method = aggregation")
 kedge_add_scene_test(scene.translating_body.linear prm/translating_body.prm
   SET "Bodies/disc/Basis = linear")
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
@@ -58,9 +70,24 @@ kedge_add_scene_test(scene.falling_body.printed_newmark prm/falling_body.prm
 
 # --- Killed and resumed: bit for bit the same ---------------------------------
 kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
-  SET "Time/End = 10" "Output/Checkpoint every steps = 5")
+  SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Newton/Log = true"
+    "Mapping/Audit = true")
+kedge_add_restart_test(scene.restart.ghost prm/spinning_body.prm KILLS 1
+  SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Stabilisation/Method = ghost")
 kedge_add_restart_test(scene.restart.2ranks prm/quickstart.prm KILLS 2 RANKS 2
   SET "Time/End = 0.5" "Output/Checkpoint every steps = 5")
+
+kedge_add_test(scene.stop_and_resume LABELS scene restart
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/stop_and_resume.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/stop_and_resume)
+
+# --- The tables that a run writes on demand -----------------------------------
+kedge_add_test(scene.newton_order LABELS scene
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/newton_order.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/newton_order)
+kedge_add_test(scene.transfer_audit LABELS scene
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/transfer_audit.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/transfer_audit)
 
 # --- A path that turns the point inside out ends with the time and exit code 2 --
 kedge_add_scene_test(path.inverted prm/paths/simple_shear.prm OPTIONS --drive

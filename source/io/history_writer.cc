@@ -33,14 +33,10 @@ namespace kedge
     names.insert(names.end(), {"linear_momentum_x", "linear_momentum_y"});
     if (dim == 3)
       names.insert(names.end(), {"linear_momentum_z", "angular_momentum_x", "angular_momentum_y"});
+    names.push_back("angular_momentum_z");
+    names.insert(names.end(), reactions.begin(), reactions.end());
     names.insert(names.end(),
-                 {"angular_momentum_z",
-                  "mass",
-                  "n_points",
-                  "n_active_cells",
-                  "n_dofs",
-                  "min_det_F",
-                  "wall_time"});
+                 {"mass", "n_points", "n_active_cells", "n_dofs", "min_det_F", "wall_time"});
     return names;
   }
 
@@ -75,6 +71,8 @@ namespace kedge
       *file << row.linear_momentum[d];
     for (unsigned int d = (columns.dim == 3 ? 0 : 2); d < 3; ++d)
       *file << row.angular_momentum[d];
+    for (unsigned int k = 0; k < columns.reactions.size(); ++k) // none before the first step
+      *file << (k < row.reactions.size() ? row.reactions[k] : 0.);
     *file << row.mass << row.n_points << row.n_active_cells << row.n_dofs << row.min_det_F
           << row.wall_time;
     file->end_row();

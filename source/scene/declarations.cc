@@ -1,4 +1,5 @@
 #include <kedge/scene/declarations.h>
+#include <kedge/scene/numerics_declarations.h>
 #include <kedge/scene/value_pattern.h>
 
 #include <utility>
@@ -19,22 +20,20 @@ namespace kedge
       std::vector<SectionDeclaration>
       all() const
       {
-        return {top_level(),
-                user_constants(),
-                grid(),
-                materials(),
-                bodies(),
-                node_conditions(),
-                body_force(),
-                point_loads(),
-                tractions(),
-                time(),
-                newton(),
-                linear_solver(),
-                mapping(),
-                output(),
-                probes(),
-                checks()};
+        std::vector<SectionDeclaration> sections = {top_level(),
+                                                    user_constants(),
+                                                    grid(),
+                                                    materials(),
+                                                    bodies(),
+                                                    node_conditions(),
+                                                    body_force(),
+                                                    point_loads(),
+                                                    tractions(),
+                                                    time()};
+        for (SectionDeclaration &section : declare_numerics<dim>(allow))
+          sections.push_back(std::move(section));
+        sections.insert(sections.end(), {output(), probes(), checks()});
+        return sections;
       }
 
     private:
@@ -138,11 +137,14 @@ namespace kedge
                   required,
                   allow.number(poisson),
                   "Lateral contraction over extension, nu [-]."},
+                 {"Volume change",
+                  "pointwise",
+                  allow.one_of({"pointwise", "cell mean"}),
+                  "Whose gives the pressure: a point's own, or the mean in a cell: does not lock."},
                  {"Yield radius rho_y",
                   "",
                   allow.number(Range::positive()).or_empty(),
-                  "von_mises: norm of the deviatoric stress, ||s||, at which the material yields "
-                  "[Pa]. Either this or the next."},
+                  "von_mises: ||s|| at which the material yields [Pa]. Either this or the next."},
                  {"Uniaxial yield stress sigma_y",
                   "",
                   allow.number(Range::positive()).or_empty(),
@@ -196,6 +198,11 @@ namespace kedge
             "",
             allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
             "All nodes where this is true, for example abs(x) < 1e-6 && y > 2."}}};
+        section.entries.push_back(
+          {"Reaction",
+           "false",
+           allow.truth(),
+           "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."});
         for (const std::string &coordinate : coordinates("xyz"))
           section.entries.push_back({"Component " + coordinate,
                                      "free",
@@ -262,6 +269,8 @@ namespace kedge
         fraction.upper = 1;
         Range beta     = Range::positive();
         beta.upper     = 0.5;
+        Range growth;
+        growth.lower = 1;
         return {
           "Time",
           "From when to when, in which steps, by which scheme.",
@@ -269,13 +278,15 @@ namespace kedge
           {{"Scheme",
             "clc-midpoint",
             allow.one_of({"quasi-static",
+                          "clc-quasi-static",
                           "clc-midpoint",
                           "midpoint",
                           "trapezoidal",
                           "newmark",
                           "generalised-alpha"}),
             "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
-            "only counts the load."},
+            "only counts the load. clc-quasi-static balances the middle of the step instead of "
+            "its end, so that the energy books close."},
            {"Start", "0", allow.number(), "When the run starts [s]."},
            {"End", required, allow.number(), "When it ends [s]."},
            {"Step",
@@ -288,6 +299,11 @@ namespace kedge
             "1/1024",
             allow.number(factor),
             "A step that does not converge is cut; below this fraction of Step the run stops [-]."},
+           {"Largest step factor",
+            "",
+            allow.number(growth).or_empty(),
+            "If given, steps adapt to Newton's method: 10 iterations or more halve the next step, "
+            "three steps in a row with at most 5 double it, up to this times Step [-]."},
            {"Break times", "", allow.numbers().or_empty(), "Times at which a step must end [s]."},
            {"Newmark beta", "0.25", allow.number(beta), "Of the scheme newmark [-]."},
            {"Newmark gamma", "0.5", allow.number(fraction), "Of the scheme newmark [-]."},
@@ -300,69 +316,6 @@ namespace kedge
             allow.truth(),
             "Whether material points keep their acceleration from step to step; false restarts "
             "newmark, trapezoidal and generalised-alpha with zero at each step."}}};
-      }
-
-      SectionDeclaration
-      newton() const
-      {
-        return {"Newton",
-                "When a step counts as solved.",
-                SectionKind::plain,
-                {{"Tolerance",
-                  "1e-11",
-                  allow.number(Range::positive()),
-                  "Of |r_k| |du_k| / (|r_0| |du_1|), residual times correction [-]."},
-                 {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."},
-                 {"Log",
-                  "false",
-                  allow.truth(),
-                  "Write newton.csv: the norms of every residual and correction."}}};
-      }
-
-      SectionDeclaration
-      linear_solver() const
-      {
-        return {
-          "Linear solver",
-          "How the linear systems are solved.",
-          SectionKind::plain,
-          {{"Method",
-            "auto",
-            allow.one_of({"auto", "banded", "direct", "krylov-ilu", "krylov-amg"}),
-            "auto chooses by size and bandwidth."},
-           {"Tolerance",
-            "1e-10",
-            allow.number(Range::positive()),
-            "Relative residual of the Krylov methods [-]."},
-           {"Iterations", "1000", allow.whole_number(1), "At most, of the Krylov methods [-]."}}};
-      }
-
-      SectionDeclaration
-      mapping() const
-      {
-        Range fraction = Range::not_negative();
-        fraction.upper = 1;
-        return {"Mapping",
-                "Between material points and grid.",
-                SectionKind::plain,
-                {{"Velocity",
-                  "flip",
-                  allow.one_of({"flip", "pic"}),
-                  "flip: points take the change of the grid's velocity. pic: the velocity itself, "
-                  "which damps."},
-                 {"Lumping",
-                  "0",
-                  allow.number(fraction),
-                  "Mass matrix from 0, consistent, to 1, lumped [-]."},
-                 {"Smallest filling",
-                  "0.05",
-                  allow.number(fraction),
-                  "A node with less material than this is tied to the nearest well-filled cell; "
-                  "0: no ties [cells]."},
-                 {"Audit",
-                  "false",
-                  allow.truth(),
-                  "Write what each mapping loses of momenta and kinetic energy."}}};
       }
 
       SectionDeclaration

@@ -43,6 +43,8 @@ namespace kedge
         material.density       = section.number("Density");
         material.young_modulus = section.number("Young's modulus");
         material.poisson_ratio = section.number("Poisson's ratio");
+        if (section.text("Volume change") == "cell mean")
+          material.volume_change = VolumeChange::cell_mean;
         read_plasticity(section, material);
         materials.push_back(material);
       }

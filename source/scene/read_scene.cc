@@ -146,7 +146,8 @@ namespace kedge
           condition.side = parse_side<dim>(section.text("Side"));
         else
           condition.where = section.text("Where");
-        bool acts = false;
+        condition.reaction = section.truth("Reaction");
+        bool acts          = false;
         for (unsigned int d = 0; d < dim; ++d)
           {
             condition.components[d] =
@@ -208,6 +209,7 @@ namespace kedge
     {
       static const std::map<std::string, SchemeKind> schemes = {
         {"quasi-static", SchemeKind::quasi_static},
+        {"clc-quasi-static", SchemeKind::clc_quasi_static},
         {"clc-midpoint", SchemeKind::clc_midpoint},
         {"midpoint", SchemeKind::midpoint},
         {"trapezoidal", SchemeKind::trapezoidal},
@@ -226,6 +228,10 @@ namespace kedge
       time.step_kind           = kind;
       (kind == StepSizeKind::fixed ? time.step : time.cfl_factor) = value;
       time.minimum_step_factor = section.number("Smallest step factor");
+
+      time.adapt_step = !section.is_empty("Largest step factor");
+      if (time.adapt_step)
+        time.maximum_step_factor = section.number("Largest step factor");
 
       time.break_times = section.numbers("Break times");
       for (const double break_time : time.break_times)
@@ -280,10 +286,26 @@ namespace kedge
       TransferParameters  transfer;
       transfer.velocity_mapping =
         section.text("Velocity") == "pic" ? VelocityUpdate::pic : VelocityUpdate::flip;
-      transfer.lumping          = section.number("Lumping");
-      transfer.smallest_filling = section.number("Smallest filling");
-      transfer.audit            = section.truth("Audit");
+      transfer.lumping = section.number("Lumping");
+      transfer.audit   = section.truth("Audit");
       return transfer;
+    }
+
+    StabilisationParameters
+    read_stabilisation(const ParameterReader &reader)
+    {
+      static const std::map<std::string, StabilisationKind> methods = {
+        {"aggregation", StabilisationKind::aggregation},
+        {"ghost", StabilisationKind::ghost},
+        {"none", StabilisationKind::none}};
+
+      const SectionReader     section(reader, {"Stabilisation"});
+      StabilisationParameters stabilisation;
+      stabilisation.method                 = methods.at(section.text("Method"));
+      stabilisation.smallest_filling       = section.number("Smallest filling");
+      stabilisation.ghost_mass_factor      = section.number("Ghost mass factor");
+      stabilisation.ghost_stiffness_factor = section.number("Ghost stiffness factor");
+      return stabilisation;
     }
 
 
@@ -387,6 +409,7 @@ namespace kedge
     scene.newton          = read_newton(reader);
     scene.linear_solver   = read_linear_solver(reader);
     scene.transfer        = read_mapping(reader);
+    scene.stabilisation   = read_stabilisation(reader);
     scene.output          = read_output(reader, scene.time);
     scene.probes          = read_probes<dim>(reader);
     scene.checks          = read_checks(reader, scene.time);

@@ -99,6 +99,37 @@ namespace kedge
 
 
   template <int dim>
+  HistoryColumns
+  Simulation<dim>::columns() const
+  {
+    HistoryColumns columns = {dim,
+                              engine.has_plasticity(),
+                              scene.stabilisation.method == StabilisationKind::ghost,
+                              {}};
+    for (const auto &condition : scene.node_conditions)
+      if (condition.reaction)
+        for (int d = 0; d < dim; ++d)
+          columns.reactions.push_back("reaction_" + condition.name + "_" + "xyz"[d]);
+    return columns;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Simulation<dim>::reactions() const
+  {
+    std::vector<double> result;
+    for (unsigned int c = 0; c < scene.node_conditions.size(); ++c)
+      if (scene.node_conditions[c].reaction)
+        for (int d = 0; d < dim; ++d)
+          result.push_back(engine.reactions_of_last_step()[c * dim + d]);
+    return result;
+  }
+
+
+
+  template <int dim>
   ExitCode
   Simulation<dim>::run()
   {
@@ -134,15 +165,18 @@ namespace kedge
   {
     row.time_step = clock.step_size();
     engine.accept_step();
-    clock.advance();
+    clock.advance(step.newton.iterations);
     totals.external_work += engine.work_of_last_step();
+    totals.ghost_work += engine.ghost_work_of_last_step();
 
-    row.step              = clock.n_steps();
-    row.time              = clock.time();
-    row.newton_iterations = step.newton.iterations;
-    row.linear_iterations = step.newton.linear_iterations;
-    row.rejected_attempts = static_cast<unsigned int>(totals.rejected_pending);
-    row.external_work     = totals.external_work;
+    row.step                 = clock.n_steps();
+    row.time                 = clock.time();
+    row.newton_iterations    = step.newton.iterations;
+    row.linear_iterations    = step.newton.linear_iterations;
+    row.rejected_attempts    = static_cast<unsigned int>(totals.rejected_pending);
+    row.external_work        = totals.external_work;
+    row.stabilisation_energy = totals.ghost_work;
+    row.reactions            = reactions();
     engine.write_books(row);
     row.energy_error = row.total_energy() + row.plastic_dissipation + row.stabilisation_energy -
                        totals.initial_energy - row.external_work;

@@ -188,6 +188,7 @@ namespace kedge
     data.scalars           = {{"time", state.time},
                               {"nominal_step", state.nominal},
                               {"external_work", totals.external_work},
+                              {"stabilisation_energy", totals.ghost_work},
                               {"initial_energy", totals.initial_energy},
                               {"wall_time", wall_time()},
                               {"points_times_steps", totals.points_times_steps},
@@ -245,6 +246,7 @@ namespace kedge
                    data.counters.at("cuts"),
                    data.counters.at("accepted_since_cut")});
     totals.external_work      = data.scalars.at("external_work");
+    totals.ghost_work         = data.scalars.at("stabilisation_energy");
     totals.initial_energy     = data.scalars.at("initial_energy");
     totals.wall_before        = data.scalars.at("wall_time");
     totals.points_times_steps = data.scalars.at("points_times_steps");
@@ -273,9 +275,10 @@ namespace kedge
       grid_output = std::make_unique<GridOutput<dim>>(folder,
                                                       static_cast<unsigned int>(
                                                         data.counters.at("grid_written")));
-    row.step          = clock.n_steps();
-    row.time          = clock.time();
-    row.external_work = totals.external_work;
+    row.step                 = clock.n_steps();
+    row.time                 = clock.time();
+    row.external_work        = totals.external_work;
+    row.stabilisation_energy = totals.ghost_work;
     engine.write_books(row);
     folder.log() << "kedge: goes on at t = " << clock.time() << " s, step " << clock.n_steps()
                  << std::endl;

@@ -8,10 +8,34 @@ namespace kedge
     int
     radius_of(const Scene<dim> &scene)
     {
+      if (scene.stabilisation.method == StabilisationKind::ghost)
+        return 2; // a face couples the outer nodes of its two cells
       for (const auto &body : scene.bodies)
         if (body.basis == BasisKind::gimp)
           return 2;
       return 1;
+    }
+
+    template <int dim>
+    std::vector<bool>
+    bodies_with_shared_volume(const Scene<dim> &scene)
+    {
+      std::vector<bool> result;
+      for (const auto &body : scene.bodies)
+        result.push_back(scene.materials[body.material].volume_change == VolumeChange::cell_mean);
+      return result;
+    }
+
+    /** How far the points of a cell couple nodes, which is further than one point does. */
+    template <int dim>
+    int
+    stiffness_radius_of(const Scene<dim> &scene)
+    {
+      for (const auto &body : scene.bodies)
+        if (body.basis == BasisKind::gimp &&
+            scene.materials[body.material].volume_change == VolumeChange::cell_mean)
+          return 3;
+      return radius_of(scene);
     }
 
     template <int dim>
@@ -68,6 +92,8 @@ namespace kedge
     , communicator(communicator)
     , scheme(scene.time)
     , stencil_radius(radius_of(scene))
+    , stiffness_radius(stiffness_radius_of(scene))
+    , shared_volume(bodies_with_shared_volume(scene))
     , material_of_body(materials_of_bodies(scene))
     , with_history(std::any_of(material_of_body.begin(),
                                material_of_body.end(),
@@ -91,7 +117,10 @@ namespace kedge
               body_names)
   {
     for (const auto &body : scene.bodies)
-      basis_of_body.push_back(body.basis);
+      {
+        basis_of_body.push_back(body.basis);
+        modulus_of_body.push_back(scene.materials[body.material].young_modulus);
+      }
   }
 
 
@@ -111,8 +140,11 @@ namespace kedge
       {
         assemble_mass(step_points, background.window(), nodes, mass);
         blend_mass(scene.transfer.lumping, mass, nodes.n_local());
-        mapping.reinit(background, nodes, conditions, ties, mass, new_pattern);
       }
+    if (has_ghosts())
+      assemble_ghosts();
+    if (scheme.dynamic)
+      mapping.reinit(background, nodes, conditions, ties, mapping_mass(), new_pattern);
     activated = true;
   }
 
@@ -122,9 +154,15 @@ namespace kedge
   void
   StepEngine<dim>::find_nodes()
   {
-    step_points.reinit(background, cloud, basis_of_body, with_history);
-    auto reached = step_points.reached_nodes(background.window());
-    ties.find(background, step_points, scene.transfer.smallest_filling, reached);
+    step_points.reinit(background, cloud, basis_of_body, with_history, shared_volume);
+    auto       reached  = step_points.reached_nodes(background.window());
+    const bool has_ties = scene.stabilisation.method == StabilisationKind::aggregation;
+    ties.find(background,
+              step_points,
+              has_ties ? scene.stabilisation.smallest_filling : 0.,
+              reached);
+    if (has_ghosts())
+      ghosts.find(background, step_points, modulus_of_body, reached);
     const bool new_nodes = nodes.reinit(background, reached);
     new_pattern          = new_nodes || ties.changed();
     if (new_nodes)
@@ -135,8 +173,37 @@ namespace kedge
       }
     if (new_pattern)
       ties.localise(nodes, conditions);
-    problem
-      .reinit(background, nodes, conditions, ties, step_points, mass, stencil_radius, new_pattern);
+    problem.reinit(background,
+                   nodes,
+                   conditions,
+                   ties,
+                   step_points,
+                   has_ghosts() ? ghosted_mass : mass,
+                   has_ghosts() ? &ghost_stiffness : nullptr,
+                   stiffness_radius,
+                   new_pattern);
+  }
+
+
+
+  template <int dim>
+  void
+  StepEngine<dim>::assemble_ghosts()
+  {
+    const StabilisationParameters &factors = scene.stabilisation;
+    if (new_pattern)
+      ghost_stiffness.reinit(nodes.n_local(), 1, stencil_radius);
+    ghost_stiffness.set_zero();
+    ghosts.add_stiffness(background, nodes, factors.ghost_stiffness_factor, ghost_stiffness);
+    if (!scheme.dynamic)
+      return;
+    if (new_pattern)
+      ghost_mass.reinit(nodes.n_local(), 1, stencil_radius);
+    ghost_mass.set_zero();
+    ghosts.add_mass(background, nodes, factors.ghost_mass_factor, ghost_mass);
+    ghosted_mass = mass;
+    ghosts.add_mass(background, nodes, factors.ghost_mass_factor, ghosted_mass);
+    ghosts_in_mapping = lumped_mass_ratio(nodes, mass) < badly_conditioned_mass;
   }
 
 
@@ -208,7 +275,7 @@ namespace kedge
       add_to_nodes(step_points, window, nodes, step_points.mass, at_points, momentum);
       ties.restrict_sums(momentum);
       nodes.add_to_owners(momentum, dim);
-      return mapping.solve(background, nodes, ties, mass, momentum, at_nodes);
+      return mapping.solve(background, nodes, ties, mapping_mass(), momentum, at_nodes);
     };
     LinearStatus status = project(step_points.velocity, nodal.velocity_n);
     if (status.success && scheme.carries_acceleration)

@@ -216,6 +216,10 @@ namespace kedge
     step_work = dealii::Utilities::MPI::sum(work, communicator);
     if (conditions.any_moving())
       step_work += problem.reaction_work();
+    if (has_ghosts())
+      ghost_work = work_against_ghosts();
+    if (!conditions.empty())
+      reactions = problem.reactions();
 
     if (scheme.dynamic)
       map_velocities_back();
@@ -230,6 +234,37 @@ namespace kedge
       });
     follow_points();
     activated = false;
+  }
+
+
+
+  template <int dim>
+  double
+  StepEngine<dim>::work_against_ghosts() const
+  {
+    // u . (M_G a_m + alpha_f K_G u) - v_n . M_G dv, the last only if M_G is in the mapping
+    const std::vector<double> &u = nodal.displacement;
+    std::vector<double>        product(u.size()), acceleration(u.size()), change(u.size());
+    double                     work = 0.;
+    multiply(ghost_stiffness, background.window(), nodes, dim, u, product);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      work += scheme.alpha_f * u[i] * product[i];
+    if (scheme.dynamic)
+      {
+        for (std::size_t i = 0; i < u.size(); ++i)
+          {
+            const double v_n = nodal.velocity_n[i], a_n = nodal.acceleration_n[i];
+            acceleration[i] = scheme.equilibrium_acceleration(u[i], v_n, a_n, step_dt);
+            change[i]       = scheme.end_velocity(u[i], v_n, a_n, step_dt) - v_n;
+          }
+        multiply(ghost_mass, background.window(), nodes, dim, acceleration, product);
+        for (std::size_t i = 0; i < u.size(); ++i)
+          work += u[i] * product[i];
+        multiply(ghost_mass, background.window(), nodes, dim, change, product);
+        for (std::size_t i = 0; i < u.size() && ghosts_in_mapping; ++i)
+          work -= nodal.velocity_n[i] * product[i];
+      }
+    return dealii::Utilities::MPI::sum(work, communicator);
   }
 
 
@@ -252,7 +287,8 @@ namespace kedge
     std::vector<double> force(size);
     for (std::size_t i = 0; i < size; ++i)
       force[i] = nodal.external_force[i] - internal[i];
-    const LinearStatus status = mapping.solve(background, nodes, ties, mass, force, at_nodes);
+    const LinearStatus status =
+      mapping.solve(background, nodes, ties, mapping_mass(), force, at_nodes);
     AssertThrow(status.success, dealii::ExcMessage("mass matrix: " + status.cause));
     interpolate_to_points(step_points, background.window(), nodes, at_nodes, accelerations);
     cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {

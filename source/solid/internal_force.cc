@@ -44,13 +44,30 @@ namespace kedge
 
   template <int dim>
   PointStatus
+  InternalForce<dim>::evaluate_groups(const StepPoints<dim>     &points,
+                                      const LatticeWindow<dim>  &window,
+                                      const ActiveNodes<dim>    &nodes,
+                                      const std::vector<double> &displacement,
+                                      GroupDilatation           &dilatation) const
+  {
+    const double at = stress_rule == StressRule::conserving ? 1. : fraction;
+    return evaluate_group_dilatation(points, window, nodes, displacement, at, dilatation);
+  }
+
+
+
+  template <int dim>
+  PointStatus
   InternalForce<dim>::add_force(const StepPoints<dim>     &points,
                                 const LatticeWindow<dim>  &window,
                                 const ActiveNodes<dim>    &nodes,
                                 const std::vector<double> &displacement,
                                 std::vector<double>       &force) const
   {
-    PointStatus status;
+    GroupDilatation dilatation;
+    PointStatus     status = evaluate_groups(points, window, nodes, displacement, dilatation);
+    if (!status.ok())
+      return status;
     for (const auto &batch : points.batches)
       {
         const internal::BatchContext<dim> context{points,
@@ -58,7 +75,8 @@ namespace kedge
                                                   nodes,
                                                   displacement,
                                                   batch,
-                                                  fraction};
+                                                  fraction,
+                                                  points.is_grouped(batch) ? &dilatation : nullptr};
         internal::add_batch_force(context, materials[batch.body], stress_rule, force, status);
         if (!status.ok())
           break;
@@ -76,6 +94,8 @@ namespace kedge
                                     const std::vector<double> &displacement,
                                     NodeMatrix<dim>           &stiffness) const
   {
+    GroupDilatation dilatation;
+    evaluate_groups(points, window, nodes, displacement, dilatation);
     for (const auto &batch : points.batches)
       {
         const internal::BatchContext<dim> context{points,
@@ -83,9 +103,18 @@ namespace kedge
                                                   nodes,
                                                   displacement,
                                                   batch,
-                                                  fraction};
+                                                  fraction,
+                                                  points.is_grouped(batch) ? &dilatation : nullptr};
         internal::add_batch_stiffness(context, materials[batch.body], stress_rule, stiffness);
       }
+    add_group_stiffness(materials,
+                        stress_rule,
+                        fraction,
+                        points,
+                        window,
+                        nodes,
+                        displacement,
+                        stiffness);
   }
 
   template class InternalForce<2>;

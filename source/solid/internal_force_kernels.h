@@ -1,7 +1,8 @@
 #ifndef kedge_solid_internal_force_kernels_h
 #define kedge_solid_internal_force_kernels_h
 
-#include <kedge/solid/internal_force.h>
+#include <kedge/solid/group_dilatation.h>
+#include <kedge/stress/mean_dilatation.h>
 
 namespace kedge
 {
@@ -17,7 +18,77 @@ namespace kedge
       const std::vector<double>             &displacement;
       const typename StepPoints<dim>::Batch &batch;
       double                                 alpha;
+      const GroupDilatation                 *dilatation; ///< if points.is_grouped(batch)
     };
+
+    /** The force stress of each point by itself. */
+    template <int dim, StressRule rule, class Material>
+    struct PointwiseLaw
+    {
+      const BatchContext<dim> &context;
+      const Material          &material;
+
+      template <bool with_tangent>
+      ForceStress<dim>
+      evaluate(const unsigned int slot, const double (&gradient)[dim][dim]) const
+      {
+        return evaluate_force_stress<dim, with_tangent, rule>(
+          material,
+          context.points.stress_state[slot],
+          gradient,
+          context.alpha,
+          context.points.template history_of<Material>(slot));
+      }
+    };
+
+    /** The force stress with the pressure of the point's group; the tangent is at this pressure. */
+    template <int dim, StressRule rule, class Material>
+    struct GroupLaw
+    {
+      const BatchContext<dim> &context;
+      const Material          &material;
+
+      template <bool with_tangent>
+      ForceStress<dim>
+      evaluate(const unsigned int slot, const double (&gradient)[dim][dim]) const
+      {
+        const double strain = context.dilatation->force_strain(rule, context.points.group[slot]);
+        return evaluate_mean_force_stress<dim, with_tangent, rule>(
+          material,
+          material.bulk_modulus * strain,
+          context.points.stress_state[slot],
+          gradient,
+          context.alpha,
+          context.points.template history_of<Material>(slot));
+      }
+    };
+
+    /** Calls run(law) with the law of a batch: once per batch. */
+    template <int dim, typename Run>
+    void
+    dispatch_law(const BatchContext<dim> &context,
+                 const Material          &material,
+                 const StressRule         rule,
+                 const Run               &run)
+    {
+      const bool conserving = rule == StressRule::conserving;
+      std::visit(
+        [&](const auto &m) {
+          using M = std::decay_t<decltype(m)>;
+          if (context.dilatation)
+            {
+              if (conserving)
+                run(GroupLaw<dim, StressRule::conserving, M>{context, m});
+              else
+                run(GroupLaw<dim, StressRule::at_configuration, M>{context, m});
+            }
+          else if (conserving)
+            run(PointwiseLaw<dim, StressRule::conserving, M>{context, m});
+          else
+            run(PointwiseLaw<dim, StressRule::at_configuration, M>{context, m});
+        },
+        material);
+    }
 
     /** Local node numbers and displacements, component-major, of a stencil. */
     template <int dim, int n>
@@ -58,11 +129,11 @@ namespace kedge
     }
 
     /** f_A = sum_p V0 P dN_A/dx_n over a batch. */
-    template <int dim, StressRule rule, class Material>
+    template <int dim, class Law>
     struct ForceKernel
     {
       const BatchContext<dim> &context;
-      const Material          &material;
+      const Law               &law;
       std::vector<double>     &force;
       PointStatus             &status;
 
@@ -84,13 +155,7 @@ namespace kedge
                 const auto basis = expand<dim, pattern>(points.stencil[slot]);
                 double     gradient[dim][dim];
                 displacement_gradient(u, basis, gradient);
-                const ForceStress<dim> stress =
-                  evaluate_force_stress<dim, false, rule>(material,
-                                                          points.stress_state[slot],
-                                                          gradient,
-                                                          context.alpha,
-                                                          points.template history_of<Material>(
-                                                            slot));
+                const ForceStress<dim> stress = law.template evaluate<false>(slot, gradient);
                 if (!stress.valid)
                   {
                     status.failed_slot = slot;
@@ -112,11 +177,11 @@ namespace kedge
     };
 
     /** K_ApBm = sum_p V0 dN_A/dx_R (dP_pR/dA_mS) dN_B/dx_S over a batch. */
-    template <int dim, StressRule rule, class Material>
+    template <int dim, class Law>
     struct StiffnessKernel
     {
       const BatchContext<dim> &context;
-      const Material          &material;
+      const Law               &law;
       NodeMatrix<dim>         &stiffness;
 
       template <int n>
@@ -175,13 +240,7 @@ namespace kedge
                 const auto basis = expand<dim, pattern>(points.stencil[slot]);
                 double     gradient[dim][dim];
                 displacement_gradient(u, basis, gradient);
-                const ForceStress<dim> stress =
-                  evaluate_force_stress<dim, true, rule>(material,
-                                                         points.stress_state[slot],
-                                                         gradient,
-                                                         context.alpha,
-                                                         points.template history_of<Material>(
-                                                           slot));
+                const ForceStress<dim> stress = law.template evaluate<true>(slot, gradient);
                 add_point<n>(points.volume[slot], stress, basis, sum);
               }
             for (int A = 0; A < n; ++A)
@@ -204,19 +263,11 @@ namespace kedge
                     std::vector<double>     &force,
                     PointStatus             &status)
     {
-      std::visit(
-        [&](const auto &m) {
-          using M = std::decay_t<decltype(m)>;
-          if (rule == StressRule::conserving)
-            dispatch_pattern<dim>(
-              context.batch.pattern,
-              ForceKernel<dim, StressRule::conserving, M>{context, m, force, status});
-          else
-            dispatch_pattern<dim>(
-              context.batch.pattern,
-              ForceKernel<dim, StressRule::at_configuration, M>{context, m, force, status});
-        },
-        material);
+      dispatch_law(context, material, rule, [&](const auto &law) {
+        using Law = std::decay_t<decltype(law)>;
+        dispatch_pattern<dim>(context.batch.pattern,
+                              ForceKernel<dim, Law>{context, law, force, status});
+      });
     }
 
     template <int dim>
@@ -226,21 +277,11 @@ namespace kedge
                         const StressRule         rule,
                         NodeMatrix<dim>         &stiffness)
     {
-      std::visit(
-        [&](const auto &m) {
-          using M = std::decay_t<decltype(m)>;
-          if (rule == StressRule::conserving)
-            dispatch_pattern<dim>(context.batch.pattern,
-                                  StiffnessKernel<dim, StressRule::conserving, M>{context,
-                                                                                  m,
-                                                                                  stiffness});
-          else
-            dispatch_pattern<dim>(context.batch.pattern,
-                                  StiffnessKernel<dim, StressRule::at_configuration, M>{context,
-                                                                                        m,
-                                                                                        stiffness});
-        },
-        material);
+      dispatch_law(context, material, rule, [&](const auto &law) {
+        using Law = std::decay_t<decltype(law)>;
+        dispatch_pattern<dim>(context.batch.pattern,
+                              StiffnessKernel<dim, Law>{context, law, stiffness});
+      });
     }
   } // namespace internal
 } // namespace kedge

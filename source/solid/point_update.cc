@@ -1,9 +1,30 @@
+#include <kedge/solid/group_dilatation.h>
 #include <kedge/solid/point_update.h>
+#include <kedge/stress/mean_dilatation.h>
 
 namespace kedge
 {
   namespace
   {
+    /** Updates a point that takes the change of volume @p increment of its group. */
+    template <int dim, class Material>
+    bool
+    update_one_of_group(const Material         &material,
+                        const StressState<dim> &state,
+                        const MaterialHistory  &history,
+                        const double (&A)[dim][dim],
+                        const double      increment,
+                        PointUpdate<dim> &update)
+    {
+      const double strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
+      return update_point<dim>(MeanDilatation<Material>(material, material.bulk_modulus * strain),
+                               state,
+                               history,
+                               A,
+                               update,
+                               (increment - relative_volume_strain<dim>(A)) / 3.);
+    }
+
     /**
      * Diagonal of the right stretch U = (F^T F)^{1/2}, which scales the GIMP
      * domain (Coombs et al. 2020).
@@ -41,11 +62,17 @@ namespace kedge
                          std::vector<PointUpdate<dim>> &updates)
   {
     updates.resize(points.size());
+    GroupDilatation   dilatation;
+    const PointStatus groups =
+      evaluate_group_dilatation(points, window, nodes, displacement, 1., dilatation);
+    if (!groups.ok())
+      return groups.failed_slot;
     std::vector<dealii::Tensor<2, dim>> gradients;
     gradients_at_points(points, window, nodes, displacement, gradients);
     for (const auto &batch : points.batches)
       {
-        const unsigned int failed = std::visit(
+        const bool         grouped = points.is_grouped(batch);
+        const unsigned int failed  = std::visit(
           [&](const auto &material) {
             for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
               {
@@ -53,12 +80,18 @@ namespace kedge
                 for (int i = 0; i < dim; ++i)
                   for (int j = 0; j < dim; ++j)
                     A[i][j] = gradients[slot][i][j];
-                if (!update_point<dim>(material,
-                                       points.stress_state[slot],
-                                       points.template history_of<std::decay_t<decltype(material)>>(
-                                         slot),
-                                       A,
-                                       updates[slot]))
+                const auto &state = points.stress_state[slot];
+                const auto  history =
+                  points.template history_of<std::decay_t<decltype(material)>>(slot);
+                const bool ok =
+                  grouped ? update_one_of_group<dim>(material,
+                                                     state,
+                                                     history,
+                                                     A,
+                                                     dilatation.increment[points.group[slot]],
+                                                     updates[slot])
+                           : update_point<dim>(material, state, history, A, updates[slot]);
+                if (!ok)
                   return slot;
               }
             return PointStatus::none;

@@ -34,7 +34,8 @@ namespace kedge
                             const NodeTies<dim>       &ties,
                             const StepPoints<dim>     &points,
                             const NodeMatrix<dim>     &mass,
-                            const int                  stencil_radius,
+                            const NodeMatrix<dim>     *ghost_stiffness,
+                            const int                  stiffness_radius,
                             const bool                 new_pattern)
   {
     this->grid       = &grid;
@@ -43,9 +44,10 @@ namespace kedge
     this->ties       = &ties;
     this->points     = &points;
     this->mass       = &mass;
+    this->penalty    = ghost_stiffness;
     if (!new_pattern)
       return;
-    stiffness.reinit(nodes.n_local(), dim, stencil_radius);
+    stiffness.reinit(nodes.n_local(), dim, stiffness_radius);
     status.resize(std::size_t(nodes.n_local()) * dim);
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       for (int d = 0; d < dim; ++d)
@@ -74,6 +76,8 @@ namespace kedge
     acceleration.resize(state.displacement.size());
     residual.resize(state.displacement.size());
     set_prescribed_displacements();
+    if (conditions->any_moving())
+      follow_supports();
   }
 
 
@@ -92,6 +96,42 @@ namespace kedge
 
 
 
+  /**
+   * Where supports move, the first guess follows them: u_f = -K^-1 (r_f(0) +
+   * K_fp u_p) with the tangent of the state at t_n and its product with the
+   * prescribed u_p as a difference of residuals. Without it, the cells next to
+   * the supports would start the iteration with all of the motion.
+   */
+  template <int dim>
+  void
+  SolidProblem<dim>::follow_supports()
+  {
+    const std::vector<double> supports_moved = state->displacement;
+    constexpr double          part           = 1e-6;
+    for (double &u : state->displacement)
+      u *= part;
+    bool ok = evaluate().ok;
+
+    const std::vector<double> moved_a_little = residual;
+    std::fill(state->displacement.begin(), state->displacement.end(), 0.);
+    ok = evaluate().ok && ok;
+    if (ok)
+      {
+        for (std::size_t i = 0; i < residual.size(); ++i)
+          residual[i] += (moved_a_little[i] - residual[i]) / part;
+        double norm = 0.;
+        ok          = solve_correction(norm, false).success && std::isfinite(norm);
+      }
+    state->displacement = supports_moved;
+    if (!ok)
+      return;
+    apply_correction(1.);
+    if (!evaluate().ok)
+      state->displacement = supports_moved;
+  }
+
+
+
   template <int dim>
   NewtonProblem::Evaluation
   SolidProblem<dim>::evaluate()
@@ -101,6 +141,8 @@ namespace kedge
     const std::vector<double> &u      = state->displacement;
     std::fill(internal.begin(), internal.end(), 0.);
     const PointStatus answer = internal_force.add_force(*points, window, *nodes, u, internal);
+    if (penalty != nullptr)
+      add_ghost_force();
     ties->restrict_sums(internal);
     nodes->add_to_owners(internal, dim);
     if (scheme.dynamic)
@@ -153,17 +195,31 @@ namespace kedge
 
   template <int dim>
   void
-  SolidProblem<dim>::add_inertia_to_stiffness()
+  SolidProblem<dim>::add_ghost_force()
   {
-    const double coefficient = scheme.inertia_coefficient(dt);
+    std::vector<double> force(internal.size());
+    multiply(*penalty, grid->window(), *nodes, dim, state->displacement, force);
+    for (std::size_t i = 0; i < force.size(); ++i)
+      internal[i] += scheme.alpha_f * force[i];
+  }
+
+
+
+  template <int dim>
+  void
+  SolidProblem<dim>::add_to_diagonal_blocks(const double coefficient, const NodeMatrix<dim> &matrix)
+  {
+    std::vector<unsigned int> slots(matrix.n_slots()); // of the matrix, in the wider stiffness
+    for (unsigned int s = 0; s < slots.size(); ++s)
+      slots[s] = stiffness.slot(matrix.offset(s));
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       {
-        const double *mass_row = mass->row(i, 0);
+        const double *matrix_row = matrix.row(i, 0);
         for (int p = 0; p < dim; ++p)
           {
             double *row = stiffness.row(i, p);
-            for (unsigned int s = 0; s < stiffness.n_slots(); ++s)
-              row[s * dim + p] += coefficient * mass_row[s];
+            for (unsigned int s = 0; s < slots.size(); ++s)
+              row[slots[s] * dim + p] += coefficient * matrix_row[s];
           }
       }
   }
@@ -177,8 +233,10 @@ namespace kedge
     const Stopwatch stopwatch(timings_.tangent);
     stiffness.set_zero();
     internal_force.add_stiffness(*points, grid->window(), *nodes, state->displacement, stiffness);
+    if (penalty != nullptr)
+      add_to_diagonal_blocks(scheme.alpha_f, *penalty);
     if (scheme.dynamic)
-      add_inertia_to_stiffness();
+      add_to_diagonal_blocks(scheme.inertia_coefficient(dt), *mass);
     equations.fill(*nodes, stiffness);
     const SparseSystem &system = equations.system();
     for (unsigned int e = 0; e < system.n_rows(); ++e)
@@ -251,6 +309,21 @@ namespace kedge
       if (status[i] == NodalStatus::prescribed)
         work += residual[i] * state->displacement[i];
     return dealii::Utilities::MPI::sum(work, nodes->communicator());
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  SolidProblem<dim>::reactions() const
+  {
+    std::vector<double> forces(std::size_t(conditions->size()) * dim, 0.);
+    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (conditions->prescribed(i, d))
+          forces[conditions->condition(i, d) * dim + d] += residual[std::size_t(i) * dim + d];
+    dealii::Utilities::MPI::sum(forces, nodes->communicator(), forces);
+    return forces;
   }
 
 

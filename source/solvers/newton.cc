@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace kedge
@@ -21,6 +22,24 @@ namespace kedge
 
     /** Corrections with kept factors, at most; each costs a residual and a substitution. */
     constexpr unsigned int most_polishes = 4;
+
+    /** Corrections that are tried before the residual is asked to fall. */
+    constexpr unsigned int free_corrections = 4;
+
+    constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+    /**
+     * True if the last two corrections have not halved the residual: material
+     * points that yield and unload in turn keep Newton's method in a cycle,
+     * which shorter corrections break.
+     */
+    bool
+    stagnates(const NewtonReport &report)
+    {
+      const auto &norms = report.residual_norms;
+      return norms.size() > free_corrections &&
+             norms[norms.size() - 1] > 0.5 * norms[norms.size() - 3];
+    }
 
     /**
      * One correction with the last tangent, taken back if it does not help.
@@ -70,14 +89,19 @@ namespace kedge
       return text.str();
     }
 
-    /** Applies the correction, halved until the state is admissible. */
+    /**
+     * Applies the correction, halved until the state is admissible and, if the
+     * iteration stagnates, the residual below @p bound.
+     */
     NewtonProblem::Evaluation
-    advance(NewtonProblem &problem)
+    advance(NewtonProblem &problem, const double bound)
     {
       problem.apply_correction(1.);
       NewtonProblem::Evaluation evaluation = problem.evaluate();
       double                    factor     = 1.;
-      for (unsigned int k = 0; k < most_halvings && !evaluation.ok; ++k)
+      for (unsigned int k = 0;
+           k < most_halvings && !(evaluation.ok && evaluation.residual_norm < bound);
+           ++k)
         {
           factor *= 0.5;
           problem.apply_correction(-factor);
@@ -120,7 +144,7 @@ namespace kedge
                            iteration_text(report.iterations);
             return report;
           }
-        evaluation = advance(problem);
+        evaluation = advance(problem, stagnates(report) ? evaluation.residual_norm : no_bound);
         report.residual_norms.push_back(evaluation.residual_norm);
         report.correction_norms.push_back(correction_norm);
         if (!evaluation.ok)

@@ -10,14 +10,14 @@ namespace kedge
     /** Accepted steps after which a cut step is doubled again. */
     constexpr unsigned int steps_before_growth = 3;
 
+    /** Newton iterations of a step that lets the next ones grow. */
+    constexpr unsigned int easy_iterations = 5;
+
+    /** Newton iterations of a step that makes the next one smaller. */
+    constexpr unsigned int hard_iterations = 10;
+
     /** A remainder of less than this part of a step is not worth a step of its own. */
     constexpr double step_tolerance = 1e-6;
-
-    double
-    halved(const double step, const std::uint64_t times)
-    {
-      return std::ldexp(step, -static_cast<int>(times));
-    }
   } // namespace
 
 
@@ -25,8 +25,11 @@ namespace kedge
   Clock::Clock(const TimeParameters &parameters)
     : end(parameters.end)
     , minimum_factor(parameters.minimum_step_factor)
+    , adapts(parameters.adapt_step)
+    , growths(adapts ? static_cast<std::uint64_t>(std::log2(parameters.maximum_step_factor)) : 0)
     , break_times(parameters.break_times)
     , time_(parameters.start)
+    , cuts(growths)
   {
     std::sort(break_times.begin(), break_times.end());
   }
@@ -63,9 +66,17 @@ namespace kedge
   double
   Clock::next_time() const
   {
-    const double step   = halved(nominal, cuts);
+    const double step   = whole_step();
     const double target = next_target();
     return target - time_ < step * (1. + step_tolerance) ? target : time_ + step;
+  }
+
+
+
+  double
+  Clock::whole_step() const
+  {
+    return std::ldexp(nominal, static_cast<int>(growths) - static_cast<int>(cuts));
   }
 
 
@@ -78,8 +89,8 @@ namespace kedge
     const double present = step_size();
     do
       ++cuts;
-    while (halved(nominal, cuts) > 0.75 * present);
-    return halved(nominal, cuts) >= floor() * (1. - step_tolerance);
+    while (whole_step() > 0.75 * present);
+    return whole_step() >= floor() * (1. - step_tolerance);
   }
 
 
@@ -95,14 +106,20 @@ namespace kedge
 
 
   void
-  Clock::advance()
+  Clock::advance(const unsigned int newton_iterations)
   {
     time_ = next_time();
     ++n_steps_;
     // cuts of a step that the target had made short do not make the next ones so
-    while (cuts > 0 && halved(nominal, cuts) < floor() * (1. - step_tolerance))
+    while (cuts > 0 && whole_step() < floor() * (1. - step_tolerance))
       --cuts;
-    if (cuts > 0 && ++accepted_since_cut >= steps_before_growth)
+    if (adapts && newton_iterations > easy_iterations)
+      {
+        accepted_since_cut = 0;
+        if (newton_iterations >= hard_iterations && 0.5 * whole_step() >= floor())
+          ++cuts;
+      }
+    else if (cuts > 0 && ++accepted_since_cut >= steps_before_growth)
       {
         --cuts;
         accepted_since_cut = 0;

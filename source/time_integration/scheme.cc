@@ -3,8 +3,10 @@
 namespace kedge
 {
   Scheme::Scheme(const TimeParameters &parameters)
-    : dynamic(parameters.scheme != SchemeKind::quasi_static)
-    , conserving_stress(parameters.scheme == SchemeKind::clc_midpoint)
+    : dynamic(parameters.scheme != SchemeKind::quasi_static &&
+              parameters.scheme != SchemeKind::clc_quasi_static)
+    , conserving_stress(parameters.scheme == SchemeKind::clc_midpoint ||
+                        parameters.scheme == SchemeKind::clc_quasi_static)
     , carries_acceleration(false)
     , alpha_f(1.)
     , alpha_m(1.)
@@ -15,6 +17,7 @@ namespace kedge
       {
         case SchemeKind::quasi_static:
           return;
+        case SchemeKind::clc_quasi_static:
         case SchemeKind::clc_midpoint:
         case SchemeKind::midpoint:
           // the mean of a_n and a_{n+1} follows from u and v_n: a_n drops out

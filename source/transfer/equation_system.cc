@@ -363,7 +363,7 @@ namespace kedge
 
   template <int dim>
   void
-  EquationSystem<dim>::fill(const ActiveNodes<dim> &nodes, NodeMatrix<dim> &matrix)
+  EquationSystem<dim>::fill(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &matrix)
   {
     const std::vector<double> *values = &matrix.values();
     std::vector<double>        summed;
@@ -431,45 +431,41 @@ namespace kedge
   void
   EquationSystem<dim>::add_remote_rows()
   {
-    std::vector<std::vector<double>> outgoing, incoming;
-    std::vector<MPI_Request>         requests;
-    outgoing.reserve(outgoing_ranges.size());
-    incoming.reserve(incoming_targets.size());
+    std::vector<std::vector<double>> buffers;
+    std::vector<MPI_Request>         requests(incoming_targets.size() + outgoing_ranges.size());
+    buffers.reserve(requests.size());
+    const auto exchange = [&](const auto &mpi_call, const unsigned int rank) {
+      MPI_Request   *request = &requests[buffers.size() - 1];
+      auto          &values  = buffers.back();
+      const MPI_Comm all     = system_.communicator;
+      mpi_call(values.data(),
+               int(values.size()),
+               MPI_DOUBLE,
+               int(rank),
+               exchange_tag,
+               all,
+               request);
+    };
     for (const auto &[rank, targets] : incoming_targets)
       {
-        incoming.emplace_back(targets.size());
-        requests.emplace_back();
-        MPI_Irecv(incoming.back().data(),
-                  static_cast<int>(targets.size()),
-                  MPI_DOUBLE,
-                  static_cast<int>(rank),
-                  exchange_tag,
-                  system_.communicator,
-                  &requests.back());
+        buffers.emplace_back(targets.size());
+        exchange(MPI_Irecv, rank);
       }
     for (const auto &[rank, ranges] : outgoing_ranges)
       {
-        outgoing.emplace_back();
+        buffers.emplace_back();
         for (std::size_t k = 0; k < ranges.size(); k += 2)
-          outgoing.back().insert(outgoing.back().end(),
-                                 remote_values.begin() + ranges[k],
-                                 remote_values.begin() + ranges[k + 1]);
-        requests.emplace_back();
-        MPI_Isend(outgoing.back().data(),
-                  static_cast<int>(outgoing.back().size()),
-                  MPI_DOUBLE,
-                  static_cast<int>(rank),
-                  exchange_tag,
-                  system_.communicator,
-                  &requests.back());
+          buffers.back().insert(buffers.back().end(),
+                                remote_values.begin() + ranges[k],
+                                remote_values.begin() + ranges[k + 1]);
+        exchange(MPI_Isend, rank);
       }
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-    auto received = incoming.begin();
-    for (const auto &[rank, targets] : incoming_targets)
+    auto received = buffers.begin();
+    for (const auto &entry : incoming_targets)
       {
-        (void)rank;
-        for (std::size_t k = 0; k < targets.size(); ++k)
-          system_.value[targets[k]] += (*received)[k];
+        for (std::size_t k = 0; k < entry.second.size(); ++k)
+          system_.value[entry.second[k]] += (*received)[k];
         ++received;
       }
   }

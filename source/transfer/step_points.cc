@@ -78,10 +78,45 @@ namespace kedge
 
   template <int dim>
   void
+  StepPoints<dim>::find_groups(const BackgroundGrid<dim>       &grid,
+                               const std::vector<unsigned int> &cell,
+                               const std::vector<bool>         &shared_volume)
+  {
+    group.clear();
+    group_cell.clear();
+    if (std::find(shared_volume.begin(), shared_volume.end(), true) == shared_volume.end())
+      return;
+    group.assign(local_number.size(), no_group);
+    std::vector<unsigned int> group_in_cell;
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Batch &batch = batches[b];
+        if (!shared_volume[batch.body])
+          continue;
+        if (b == 0 || batches[b - 1].body != batch.body)
+          group_in_cell.assign(grid.window().n_cells_total(), no_group);
+        for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+          {
+            unsigned int &here = group_in_cell[cell[local_number[slot]]];
+            if (here == no_group)
+              {
+                here = group_cell.size();
+                group_cell.push_back(cell[local_number[slot]]);
+              }
+            group[slot] = here;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
   StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
                           const MaterialPoints<dim>    &points,
                           const std::vector<BasisKind> &basis_of_body,
-                          const bool                    with_history)
+                          const bool                    with_history,
+                          const std::vector<bool>      &shared_volume)
   {
     const unsigned int                   n = points.n_local();
     std::vector<unsigned int>            cell(n), body(n);
@@ -102,6 +137,7 @@ namespace kedge
         make_stencil(basis_of_body[body[i]], grid.lattice(), grid.window(), x, state.half_lengths);
     });
     find_order(grid, cell, body, stencils, basis_of_body.size());
+    find_groups(grid, cell, shared_volume);
 
     stencil.resize(n);
     mass.resize(n);

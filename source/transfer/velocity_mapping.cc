@@ -27,7 +27,7 @@ namespace kedge
                                const ActiveNodes<dim>    &nodes,
                                const NodeConditions<dim> &conditions,
                                const NodeTies<dim>       &ties,
-                               NodeMatrix<dim>           &mass,
+                               const NodeMatrix<dim>     &mass,
                                const bool                 new_pattern)
   {
     if (new_pattern)

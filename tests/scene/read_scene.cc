@@ -22,6 +22,8 @@ TEST(SceneRead, GridMaterialsAndBodies)
   EXPECT_EQ(scene.materials[1].density, 2000);
   EXPECT_EQ(scene.materials[1].young_modulus, 12e7);
   EXPECT_EQ(scene.materials[1].poisson_ratio, -0.1);
+  EXPECT_EQ(scene.materials[0].volume_change, VolumeChange::pointwise);
+  EXPECT_EQ(scene.materials[1].volume_change, VolumeChange::cell_mean);
 
   ASSERT_EQ(scene.bodies.size(), 2u);
   const BodyParameters<2> &beam = scene.bodies[0];
@@ -203,6 +205,7 @@ TEST(SceneRead, WrittenParametersRunAgainAsTheyAre)
   EXPECT_EQ(again.bodies[0].name, "beam");
   EXPECT_EQ(again.bodies[0].material, 1u);
   EXPECT_EQ(again.materials[1].young_modulus, 12e7);
+  EXPECT_EQ(again.materials[1].volume_change, VolumeChange::cell_mean);
   EXPECT_EQ(again.node_conditions[1].where, scene.node_conditions[1].where);
   EXPECT_EQ(again.time.break_times, scene.time.break_times);
   EXPECT_EQ(again.checks[2].exact, scene.checks[2].exact);

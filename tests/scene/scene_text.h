@@ -47,6 +47,7 @@ subsection Materials
     set Density = 2000
     set Young's modulus = 12e7
     set Poisson's ratio = -0.1
+    set Volume change = cell mean
   end
 end
 

@@ -266,3 +266,22 @@ TEST(SolversNewton, SaysWhyItDidNotConverge)
     1.);
   EXPECT_NE(solve_newton(diverging, {}).cause.find("grew without bound"), std::string::npos);
 }
+
+TEST(SolversNewton, BreaksACycleWithShorterCorrections)
+{
+  // full corrections of sign(x) sqrt|x| only change the sign of x; so do those
+  // of points that yield and unload in turn
+  Scalar problem(
+    [](double x) {
+      return std::copysign(std::sqrt(std::abs(x)), x) + (x > 0. ? 1e-3 * x : 0.);
+    },
+    [](double x) {
+      return 0.5 / std::sqrt(std::abs(x)) + (x > 0. ? 1e-3 : 0.);
+    },
+    1.);
+  const NewtonReport report = solve_newton(problem, NewtonParameters());
+  EXPECT_TRUE(report.converged) << report.cause;
+  EXPECT_NEAR(problem.x, 0., 1e-8);
+  // they are left alone at first: the residual may grow on the way to a solution
+  EXPECT_GE(report.residual_norms[2], 0.99 * report.residual_norms[1]);
+}

@@ -117,6 +117,27 @@ TEST(TimeIntegrationClock, StopsAtTheFloor)
   EXPECT_EQ(clock.floor(), 1. / 1024.);
 }
 
+TEST(TimeIntegrationClock, ABreakTimeNearbyLowersTheFloor)
+{
+  // the step to 0.0005 is half of the ordinary floor, 0.001: it may be cut ten times as any other
+  Clock        clock = make_clock(1.024, 10., {0.0005});
+  unsigned int cuts  = 0;
+  EXPECT_EQ(clock.step_size(), 0.0005);
+  while (clock.cut_step())
+    ++cuts;
+  EXPECT_GE(cuts, 9u); // the first cut may go below one half
+  EXPECT_LE(cuts, 10u);
+
+  // once there, the cuts below the ordinary floor are forgotten
+  Clock other = make_clock(1.024, 10., {0.0005});
+  EXPECT_TRUE(other.cut_step());
+  while (other.time() < 0.0005)
+    other.advance();
+  EXPECT_EQ(other.time(), 0.0005);
+  EXPECT_GE(other.step_size(), 0.001 * (1. - 1e-12));
+  EXPECT_NEAR(other.floor(), 0.001, 1e-15);
+}
+
 TEST(TimeIntegrationClock, GoesOnFromARestoredStateBitForBit)
 {
   Clock clock = make_clock(0.017, 1., {0.4});
@@ -137,4 +158,56 @@ TEST(TimeIntegrationClock, GoesOnFromARestoredStateBitForBit)
       resumed.advance();
     }
   EXPECT_TRUE(resumed.finished());
+}
+
+namespace
+{
+  Clock
+  adaptive_clock(const double largest)
+  {
+    TimeParameters parameters;
+    parameters.end                 = 100.;
+    parameters.adapt_step          = true;
+    parameters.maximum_step_factor = largest;
+    Clock clock(parameters);
+    clock.set_nominal_step(0.1);
+    return clock;
+  }
+} // namespace
+
+TEST(TimeIntegrationClock, AdaptsToTheWorkOfNewtonsMethod)
+{
+  // 5 is easy, 10 hard, three easy steps in a row let it grow, to 4 times 0.1 at most
+  Clock              clock        = adaptive_clock(5.);
+  const unsigned int iterations[] = {5, 5, 5, 4, 4, 4, 4, 10, 6, 4, 4, 9, 4, 4, 4, 4};
+  const double       steps[] = {.1, .1, .1, .2, .2, .2, .4, .4, .2, .2, .2, .2, .2, .2, .2, .4};
+  for (unsigned int k = 0; k < 16; ++k)
+    {
+      EXPECT_NEAR(clock.step_size(), steps[k], 1e-14) << "step " << k;
+      clock.advance(iterations[k]);
+    }
+}
+
+TEST(TimeIntegrationClock, HardStepsDoNotReachTheFloor)
+{
+  Clock clock = adaptive_clock(1.);
+  for (unsigned int k = 0; k < 30; ++k)
+    clock.advance(20);
+  EXPECT_NEAR(clock.step_size(), 0.1 / 1024, 1e-15);
+}
+
+TEST(TimeIntegrationClock, AdaptedStepsGoOnFromARestoredStateBitForBit)
+{
+  Clock clock = adaptive_clock(8.);
+  for (unsigned int k = 0; k < 5; ++k)
+    clock.advance(3);
+  Clock resumed = adaptive_clock(8.);
+  resumed.restore(clock.state());
+  for (unsigned int k = 0; k < 20; ++k)
+    {
+      ASSERT_EQ(resumed.time(), clock.time());
+      ASSERT_EQ(resumed.step_size(), clock.step_size());
+      clock.advance(k % 7 == 6 ? 12 : 3);
+      resumed.advance(k % 7 == 6 ? 12 : 3);
+    }
 }

@@ -188,3 +188,134 @@ TYPED_TEST(TransferTiesMpi, EquationsAreTheDenseProduct)
       }
   });
 }
+
+// A has blocks f_pm M_ij, f_pm = 1 + p + 3 m, and single components are prescribed.
+TYPED_TEST(TransferTiesMpi, EquationsOfVectorsAreTheDenseProduct)
+{
+  constexpr int dim = TypeParam::value;
+  for_both_bases<dim>([](const Cloud<dim> &cloud, const DenseCloud<dim> &dense, const double) {
+    const auto      ties = all_ties(cloud);
+    NodeMatrix<dim> mass, matrix;
+    mass.reinit(cloud.nodes.n_local(), 1, 2);
+    assemble_mass(cloud.step, cloud.window(), cloud.nodes, mass);
+    matrix.reinit(cloud.nodes.n_local(), dim, 2);
+    for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
+      for (int p = 0; p < dim; ++p)
+        for (unsigned int slot = 0; slot < matrix.n_slots(); ++slot)
+          for (int m = 0; m < dim; ++m)
+            matrix.row(i, p)[slot * dim + m] = (1 + p + 3 * m) * mass.row(i, 0)[slot];
+
+    const auto prescribed = [](const std::size_t window_node, const std::size_t component) {
+      return (window_node + 2 * component) % 5 == 0;
+    };
+    std::vector<NodalStatus> status(cloud.nodes.n_local() * dim, NodalStatus::free);
+    for (unsigned int i = 0; i < status.size(); ++i)
+      if (prescribed(cloud.nodes.window_node(i / dim), i % dim))
+        status[i] = NodalStatus::prescribed;
+      else if (cloud.ties.tie_of(i / dim) >= 0)
+        status[i] = NodalStatus::tied;
+    EquationSystem<dim> equations;
+    equations.reinit(cloud.grid, cloud.nodes, cloud.ties, status, matrix);
+    equations.fill(cloud.nodes, matrix);
+
+    const SparseSystem      &system = equations.system();
+    std::vector<std::size_t> mine, index_of; // window number * dim + component
+    for (unsigned int e = 0; e < system.n_rows(); ++e)
+      mine.push_back(cloud.nodes.window_node(equations.nodal_index(e) / dim) * dim +
+                     equations.nodal_index(e) % dim);
+    for (const auto &share : dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, mine))
+      index_of.insert(index_of.end(), share.begin(), share.end());
+
+    std::map<std::size_t, Weights> moved_by; // columns of C
+    for (const std::size_t index : index_of)
+      moved_by[index][index] = 1.;
+    for (const auto &[node, weights] : ties)
+      for (int c = 0; c < dim; ++c)
+        if (!prescribed(node, c))
+          for (const auto &[root, weight] : weights)
+            if (moved_by.count(root * dim + c) > 0)
+              moved_by[root * dim + c][node * dim + c] = weight;
+
+    for (unsigned int e = 0; e < system.n_rows(); ++e)
+      {
+        std::vector<double> row(index_of.size(), 0.);
+        for (std::int64_t k = system.row_start[e]; k < system.row_start[e + 1]; ++k)
+          {
+            EXPECT_TRUE(k == system.row_start[e] || system.column[k] > system.column[k - 1]);
+            row[system.column[k]] = system.value[k];
+          }
+        const double row_factor = 1 + mine[e] % dim;
+        for (std::size_t c = 0; c < row.size(); ++c)
+          {
+            double expected = 0.; // (C^T A C)_ec
+            for (const auto &[A, weight_A] : moved_by[mine[e]])
+              for (const auto &[B, weight_B] : moved_by[index_of[c]])
+                expected += weight_A * weight_B * (row_factor + 3 * (index_of[c] % dim)) *
+                            dense.effective_mass(0., A / dim, B / dim);
+            EXPECT_NEAR(row[c], expected, 1e-11);
+          }
+      }
+  });
+}
+
+// Two bodies with a gap between them: a node that only one reaches hangs on
+// cells of that body, although cells of the other are nearer.
+TEST(TransferTiesOfBodiesMpi, PreferTheirOwnCells)
+{
+  constexpr int       dim = 2;
+  BackgroundGrid<dim> grid(some_grid<dim>({{12, 10}}), MPI_COMM_WORLD);
+  LatticeWindow<dim>  covered;
+  covered.low     = {{1, 1}};
+  covered.n_cells = {{8, 3}};
+  grid.cover(covered, std::vector<unsigned int>(covered.n_cells_total(), 1));
+
+  // body 0 fills [1, 3.5) x [1, 4), body 1 [5, 9) x [1, 4), each point 1/4 of a cell: the nodes
+  // at x = 4 have 1/8 of a cell, of body 0 alone
+  std::vector<PointRecord<dim>> records;
+  const auto                    h   = grid.lattice().h;
+  const auto                    add = [&](const double x, const double y, const int body) {
+    PointRecord<dim> record;
+    record.id = records.size();
+    record.location =
+      dealii::Point<dim>(grid.lattice().origin[0] + x * h[0], grid.lattice().origin[1] + y * h[1]);
+    record.state.body             = body;
+    record.state.mass             = 1.;
+    record.state.reference_volume = 0.25 * h[0] * h[1];
+    for (int d = 0; d < dim; ++d)
+      record.state.deformation_gradient[d][d] = 1.;
+    records.push_back(record);
+  };
+  for (double y = 1.25; y < 4.; y += 0.5)
+    {
+      for (double x = 1.25; x < 3.5; x += 0.5)
+        add(x, y, 0);
+      for (double x = 5.25; x < 9.; x += 0.5)
+        add(x, y, 1);
+    }
+  MaterialPoints<dim> points;
+  const bool          first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  points.distribute(grid, first ? records : std::vector<PointRecord<dim>>());
+  StepPoints<dim> step;
+  step.reinit(grid, points, {BasisKind::linear, BasisKind::linear});
+  auto          reached = step.reached_nodes(grid.window());
+  NodeTies<dim> ties;
+  ties.find(grid, step, 0.3, reached);
+  ActiveNodes<dim> nodes;
+  nodes.reinit(grid, reached);
+  NodeConditions<dim> conditions({}, {});
+  conditions.reinit(grid, nodes);
+  ties.localise(nodes, conditions);
+
+  // both [2, 3] of body 0 and [5, 6] of body 1 are well filled and 1.5 cells away
+  unsigned int n_checked = 0;
+  for (const auto &tie : ties.ties())
+    {
+      const auto node = grid.window().node_index(nodes.window_node(tie.node));
+      if (node[0] != 4)
+        continue;
+      ++n_checked;
+      for (const unsigned int root : tie.roots)
+        EXPECT_LT(grid.window().node_index(nodes.window_node(root))[0], 4);
+    }
+  EXPECT_GE(dealii::Utilities::MPI::sum(n_checked, MPI_COMM_WORLD), 1u);
+}

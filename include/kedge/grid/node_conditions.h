@@ -30,6 +30,13 @@ namespace kedge
       return condition_of[std::size_t(node) * dim + d] >= 0;
     }
 
+    /** The condition that prescribes a component, by its number in the scene; -1: none. */
+    int
+    condition(const unsigned int node, const int d) const
+    {
+      return condition_of[std::size_t(node) * dim + d];
+    }
+
     /** Displacement of a prescribed component over the step from @p t0 to @p t1 [m]. */
     double
     increment(const unsigned int node, const int d, const double t0, const double t1) const;
@@ -45,6 +52,12 @@ namespace kedge
     any_moving() const
     {
       return any_moving_;
+    }
+
+    unsigned int
+    size() const
+    {
+      return conditions.size();
     }
 
     bool

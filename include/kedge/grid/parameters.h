@@ -55,6 +55,7 @@ namespace kedge
     unsigned int                        side    = 0; ///< 2*direction + (0: low, 1: high)
     std::string                         where;       ///< used if !on_side
     std::array<ComponentCondition, dim> components;
+    bool                                reaction = false; ///< history.csv shows its force
   };
 } // namespace kedge
 

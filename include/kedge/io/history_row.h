@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace kedge
 {
@@ -33,6 +34,8 @@ namespace kedge
     double linear_momentum[3]  = {0, 0, 0}; ///< [kg m/s]
     double angular_momentum[3] = {0, 0, 0}; ///< about the origin [kg m^2/s]
     double mass                = unset;     ///< [kg]
+
+    std::vector<double> reactions; ///< of supports on the bodies, as HistoryColumns names them [N]
 
     std::uint64_t n_points       = 0;
     std::uint64_t n_active_cells = 0;

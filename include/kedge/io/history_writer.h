@@ -19,6 +19,8 @@ namespace kedge
     bool         plasticity    = false; ///< hardening_energy, plastic_dissipation
     bool         stabilisation = false; ///< stabilisation_energy
 
+    std::vector<std::string> reactions = {}; ///< reaction_NAME_x.., of HistoryRow::reactions
+
     /** In the order of the file. */
     std::vector<std::string>
     names() const;

@@ -11,11 +11,22 @@ namespace kedge
     von_mises
   };
 
+  /**
+   * Which change of volume gives the pressure: each point's own, or the mean
+   * of those of its body in its cell, which does not lock.
+   */
+  enum class VolumeChange
+  {
+    pointwise,
+    cell_mean
+  };
+
   /** A material as the scene names it; density in the reference configuration. */
   struct MaterialParameters
   {
     std::string  name;
     MaterialKind kind          = MaterialKind::hencky;
+    VolumeChange volume_change = VolumeChange::pointwise;
     double       density       = 0; ///< [kg/m^3]
     double       young_modulus = 0; ///< [Pa]
     double       poisson_ratio = 0; ///< [-]

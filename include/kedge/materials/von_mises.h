@@ -34,6 +34,7 @@ namespace kedge
 
     explicit VonMises(const MaterialParameters &parameters)
       : elastic(parameters)
+      , bulk_modulus(elastic.bulk_modulus)
       , yield_stress(parameters.yield_stress)
       , hardening_modulus(parameters.hardening_modulus)
     {}
@@ -148,6 +149,7 @@ namespace kedge
     }
 
     const Hencky elastic;
+    const double bulk_modulus;      ///< K [Pa]
     const double yield_stress;      ///< sigma_y, uniaxial, of the virgin material [Pa]
     const double hardening_modulus; ///< H = d sigma_y / d alpha [Pa]
   };

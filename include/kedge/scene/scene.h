@@ -35,6 +35,7 @@ namespace kedge
     NewtonParameters                          newton;
     LinearSolverParameters                    linear_solver;
     TransferParameters                        transfer;
+    StabilisationParameters                   stabilisation;
     OutputParameters                          output;
     std::vector<ProbeParameters<dim>>         probes;
     std::vector<CheckParameters>              checks;

@@ -44,6 +44,7 @@ namespace kedge
     struct Totals
     {
       double        external_work      = 0.;
+      double        ghost_work         = 0.;
       double        initial_energy     = 0.;
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
       double        points_times_steps = 0.;
@@ -78,10 +79,10 @@ namespace kedge
     finish(const std::string &status, const std::string &reason);
     /** What history.csv holds in this scene. */
     HistoryColumns
-    columns() const
-    {
-      return {dim, engine.has_plasticity(), false};
-    }
+    columns() const;
+    /** Those that it shows, as HistoryRow holds them. */
+    std::vector<double>
+    reactions() const;
 
     double
     wall_time() const;

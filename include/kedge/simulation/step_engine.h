@@ -7,6 +7,7 @@
 #include <kedge/solid/point_update.h>
 #include <kedge/solid/solid_problem.h>
 #include <kedge/transfer/audit.h>
+#include <kedge/transfer/ghost_penalty.h>
 #include <kedge/transfer/velocity_mapping.h>
 
 #include <map>
@@ -88,6 +89,20 @@ namespace kedge
     work_of_last_step() const
     {
       return step_work;
+    }
+
+    /** Work done against the ghost stabilisation in the last accepted step [J]. */
+    double
+    ghost_work_of_last_step() const
+    {
+      return ghost_work;
+    }
+
+    /** Forces of the supports in the last accepted step: dim values per node condition [N]. */
+    const std::vector<double> &
+    reactions_of_last_step() const
+    {
+      return reactions;
     }
 
     const MaterialPoints<dim> &
@@ -187,6 +202,20 @@ namespace kedge
     map_velocities_back();
     void
     follow_points();
+    bool
+    has_ghosts() const
+    {
+      return scene.stabilisation.method == StabilisationKind::ghost;
+    }
+    void
+    assemble_ghosts();
+    double
+    work_against_ghosts() const;
+    const NodeMatrix<dim> &
+    mapping_mass() const
+    {
+      return ghosts_in_mapping ? ghosted_mass : mass;
+    }
     LinearStatus
     particle_to_grid(const double t, const double dt);
     void
@@ -200,9 +229,12 @@ namespace kedge
     const MPI_Comm           communicator;
     const Scheme             scheme;
     const int                stencil_radius;
+    const int                stiffness_radius;
+    const std::vector<bool>  shared_volume; ///< of the points in a cell, one per body
     std::vector<BasisKind>   basis_of_body;
     std::vector<Material>    material_of_body;
-    const bool               with_history; ///< of any material
+    std::vector<double>      modulus_of_body; ///< Young's [Pa]
+    const bool               with_history;    ///< of any material
     std::vector<std::string> body_names;
 
     BackgroundGrid<dim>  background;
@@ -213,6 +245,10 @@ namespace kedge
     NodeTies<dim>        ties;
     ExternalLoads<dim>   loads;
     NodeMatrix<dim>      mass;
+    GhostPenalty<dim>    ghosts;
+    NodeMatrix<dim>      ghost_mass, ghost_stiffness;
+    NodeMatrix<dim>      ghosted_mass; ///< mass and ghost mass
+    bool                 ghosts_in_mapping = false;
     VelocityMapping<dim> mapping;
     SolidProblem<dim>    problem;
     NodalState           nodal;
@@ -221,9 +257,11 @@ namespace kedge
     LatticeWindow<dim>                  covered;
     std::vector<unsigned int>           weights;
     bool                                activated = false, new_pattern = false;
-    double                              step_t    = 0.;
-    double                              step_dt   = 0.;
-    double                              step_work = 0.;
+    double                              step_t     = 0.;
+    double                              step_dt    = 0.;
+    double                              step_work  = 0.;
+    double                              ghost_work = 0.;
+    std::vector<double>                 reactions;
     std::vector<dealii::Tensor<1, dim>> point_forces;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;

@@ -7,6 +7,8 @@
 
 namespace kedge
 {
+  struct GroupDilatation;
+
   /** Whether all material points could answer to a trial displacement. */
   struct PointStatus
   {
@@ -25,7 +27,9 @@ namespace kedge
    * The internal force (3.116)/(3.133) of trial displacements u of the
    * active nodes, and its derivative. Both are partial sums over the points
    * of this rank. They hold the gradients of the basis at the configuration n
-   * and carry dF in the stress (see ForceStress).
+   * and carry dF in the stress (see ForceStress). Points of StepPoints::group
+   * have the pressure of their group (see GroupDilatation); the stiffness then
+   * couples the nodes of all points of a group.
    */
   template <int dim>
   class InternalForce
@@ -80,6 +84,13 @@ namespace kedge
     }
 
   private:
+    PointStatus
+    evaluate_groups(const StepPoints<dim>     &points,
+                    const LatticeWindow<dim>  &window,
+                    const ActiveNodes<dim>    &nodes,
+                    const std::vector<double> &displacement,
+                    GroupDilatation           &dilatation) const;
+
     std::vector<Material> materials;
     StressRule            stress_rule;
     double                fraction;

@@ -27,9 +27,11 @@ namespace kedge
 
   /**
    * The balance of momentum of one step (3.114), (3.148),
-   *   r(u) = f_int(u) + M a_m(u) - f_ext = 0
+   *   r(u) = f_int(u) + alpha_f K_G u + M a_m(u) - f_ext = 0
    * at the free components of the active nodes, with its tangent
-   *   J = K + c M,   c = d a_m / d u.
+   *   J = K + alpha_f K_G + c M,   c = d a_m / d u.
+   * K_G is the ghost stiffness of (3.154), if there is one; the ghost mass is
+   * part of M.
    */
   template <int dim>
   class SolidProblem : public NewtonProblem
@@ -40,7 +42,12 @@ namespace kedge
                  const LinearSolverParameters   &parameters,
                  const std::vector<std::string> &body_names);
 
-    /** Announces points, nodes and conditions of a step. */
+    /**
+     * Announces points, nodes and conditions of a step. The stiffness couples
+     * nodes up to @p stiffness_radius apart, no less than the mass does.
+     *
+     * @param ghost_stiffness K_G, acts alike on all components [N/m]; nullptr for none
+     */
     void
     reinit(const BackgroundGrid<dim> &grid,
            const ActiveNodes<dim>    &nodes,
@@ -48,7 +55,8 @@ namespace kedge
            const NodeTies<dim>       &ties,
            const StepPoints<dim>     &points,
            const NodeMatrix<dim>     &mass,
-           const int                  stencil_radius,
+           const NodeMatrix<dim>     *ghost_stiffness,
+           const int                  stiffness_radius,
            const bool                 new_pattern);
 
     /**
@@ -70,6 +78,13 @@ namespace kedge
     /** Work of the supports that move in this step, after convergence [J] (collective). */
     double
     reaction_work() const;
+
+    /**
+     * The forces of the supports on the bodies in the balance of this step,
+     * after convergence [N]: dim values per node condition (collective).
+     */
+    std::vector<double>
+    reactions() const;
 
     /**
      * Says where the tangent was singular, or nearly so, in this step; empty
@@ -107,9 +122,13 @@ namespace kedge
     void
     set_prescribed_displacements();
     void
+    follow_supports();
+    void
     assemble_tangent();
     void
-    add_inertia_to_stiffness();
+    add_ghost_force();
+    void
+    add_to_diagonal_blocks(const double coefficient, const NodeMatrix<dim> &matrix);
     std::string
     describe_point(const unsigned int slot) const;
     std::string
@@ -126,6 +145,7 @@ namespace kedge
     const NodeTies<dim>       *ties       = nullptr;
     const StepPoints<dim>     *points     = nullptr;
     const NodeMatrix<dim>     *mass       = nullptr;
+    const NodeMatrix<dim>     *penalty    = nullptr; ///< K_G
     NodalState                *state      = nullptr;
     double                     t_n        = 0.;
     double                     dt         = 0.;

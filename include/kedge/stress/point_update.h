@@ -66,6 +66,7 @@ namespace kedge
     /**
      * Energies and history at the end of the step, and the stretches
      * exp(d eps^p_i) by which the trial elastic stretches are too long.
+     * @p volume_change is added to each principal elastic strain.
      */
     template <int dim, class Material>
     inline void
@@ -73,13 +74,14 @@ namespace kedge
                    const StressState<dim>              &state,
                    const MaterialHistory               &history,
                    const RelativeStress<dim, Material> &r,
+                   const double                         volume_change,
                    double (&plastic_stretch)[3],
                    PointUpdate<dim> &update)
     {
       double strain[3];
       for (int i = 0; i < 3; ++i)
         {
-          strain[i]          = state.strain[i] + r.increment[i];
+          strain[i]          = state.strain[i] + r.increment[i] + volume_change;
           plastic_stretch[i] = 1.;
           if constexpr (Material::has_history)
             {
@@ -105,7 +107,10 @@ namespace kedge
   /**
    * Evaluates a point at the end of a step dF = I + A.
    *
-   * @param history of the material at the start of the step
+   * @param history       of the material at the start of the step
+   * @param volume_change added to each principal elastic strain: a third of what
+   *                      the point's volume strain differs from its group's
+   *                      (MeanDilatation), else 0
    *
    * @return false if det(I + A) or an elastic stretch is not positive; the
    * update is unset then
@@ -116,7 +121,8 @@ namespace kedge
                const StressState<dim> &state,
                const MaterialHistory  &history,
                const double (&A)[dim][dim],
-               PointUpdate<dim> &update)
+               PointUpdate<dim> &update,
+               const double      volume_change = 0.)
   {
     double E[n_symmetric<dim>];
     relative_strain<dim>(A, E);
@@ -126,7 +132,7 @@ namespace kedge
 
     const auto &tau = r.response.kirchhoff_stress;
     double      plastic_stretch[3];
-    internal::update_history(material, state, history, r, plastic_stretch, update);
+    internal::update_history(material, state, history, r, volume_change, plastic_stretch, update);
     update.out_of_plane_stress         = dim == 2 ? tau[2] : 0.;
     update.out_of_plane_stretch_factor = 1. / plastic_stretch[2];
     for (int i = 0; i < dim; ++i)
@@ -149,6 +155,14 @@ namespace kedge
       for (auto &row : update.elastic_frame)
         for (int k = 0; k < dim; ++k)
           row[k] /= plastic_stretch[k];
+    if (volume_change != 0.)
+      {
+        const double stretch = std::exp(volume_change);
+        update.out_of_plane_stretch_factor *= stretch;
+        for (auto &row : update.elastic_frame)
+          for (double &entry : row)
+            entry *= stretch;
+      }
     return true;
   }
 } // namespace kedge

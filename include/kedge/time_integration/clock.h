@@ -10,8 +10,10 @@ namespace kedge
   /**
    * Simulated time and the size of the next step. The nominal step is halved
    * when an attempt is rejected and doubled again, up to the nominal one,
-   * after a few accepted steps. Steps end exactly at the break times and at
-   * the end.
+   * after a few accepted steps. If it adapts, it is also halved after a step
+   * that was hard for Newton's method, only easy steps let it grow, and it
+   * may grow beyond the nominal one, up to the largest factor. Steps end
+   * exactly at the break times and at the end.
    */
   class Clock
   {
@@ -56,9 +58,9 @@ namespace kedge
     bool
     cut_step();
 
-    /** Goes to next_time(). */
+    /** Goes to next_time() after a step that took @p newton_iterations. */
     void
-    advance();
+    advance(const unsigned int newton_iterations = 0);
 
     /**
      * The smallest step allowed [s]: a part of the nominal step, or of the way
@@ -86,14 +88,19 @@ namespace kedge
   private:
     double
     next_target() const;
+    /** The step before it is shortened to land on a target [s]. */
+    double
+    whole_step() const;
 
     double              end;
     double              minimum_factor;
+    bool                adapts;
+    std::uint64_t       growths; ///< doublings from the nominal to the largest step
     std::vector<double> break_times;
     double              time_;
-    double              nominal            = 0.;
-    std::uint64_t       n_steps_           = 0;
-    std::uint64_t       cuts               = 0;
+    double              nominal  = 0.;
+    std::uint64_t       n_steps_ = 0;
+    std::uint64_t       cuts; ///< halvings from the largest step to the present one
     std::uint64_t       accepted_since_cut = 0;
   };
 } // namespace kedge

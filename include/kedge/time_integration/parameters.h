@@ -9,6 +9,7 @@ namespace kedge
   enum class SchemeKind
   {
     quasi_static,
+    clc_quasi_static,
     clc_midpoint,
     midpoint,
     trapezoidal,
@@ -33,6 +34,8 @@ namespace kedge
     double              step                = 0.1;       ///< [s], step_kind fixed
     double              cfl_factor          = 15;        ///< [-], step_kind cfl_*
     double              minimum_step_factor = 1. / 1024; ///< floor, times the nominal step
+    bool                adapt_step          = false;     ///< to the work of Newton's method
+    double              maximum_step_factor = 1;         ///< if adapt_step: times the nominal step
     std::vector<double> break_times;                     ///< times that a step must end at [s]
     double              newmark_beta       = 0.25;
     double              newmark_gamma      = 0.5;

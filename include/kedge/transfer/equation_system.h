@@ -32,7 +32,7 @@ namespace kedge
 
     /** Copies the values into system(), shares of all ranks added up (collective). */
     void
-    fill(const ActiveNodes<dim> &nodes, NodeMatrix<dim> &matrix);
+    fill(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &matrix);
 
     /** Equations owned here of a nodal vector. */
     void

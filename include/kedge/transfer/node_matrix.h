@@ -123,6 +123,12 @@ namespace kedge
       return values_;
     }
 
+    const std::vector<double> &
+    values() const
+    {
+      return values_;
+    }
+
   private:
     unsigned int        n_components_ = 0;
     unsigned int        n_slots_      = 0;

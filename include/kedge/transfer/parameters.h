@@ -9,11 +9,26 @@ namespace kedge
     pic
   };
 
+  /** What is done where the body fills cells badly. */
+  enum class StabilisationKind
+  {
+    aggregation, ///< NodeTies
+    ghost,       ///< GhostPenalty
+    none
+  };
+
+  struct StabilisationParameters
+  {
+    StabilisationKind method                 = StabilisationKind::aggregation;
+    double            smallest_filling       = 0.05; ///< below, a node is tied [cells]
+    double            ghost_mass_factor      = 1e-6; ///< gamma_M of (3.153) over rho [-]
+    double            ghost_stiffness_factor = 1e-6; ///< gamma_K of (3.152) over E [-]
+  };
+
   struct TransferParameters
   {
     VelocityUpdate velocity_mapping = VelocityUpdate::flip;
     double         lumping          = 0;     ///< epsilon of (3.161): 0 consistent, 1 lumped
-    double         smallest_filling = 0.05;  ///< below, a node is tied (NodeTies) [cells]
     bool           audit            = false; ///< write what each mapping loses, Tables 3.1, 3.2
   };
 } // namespace kedge

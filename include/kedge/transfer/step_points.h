@@ -46,14 +46,25 @@ namespace kedge
     std::vector<unsigned int>           loaded;      ///< slots of the points that carry loads
 
     /**
+     * Groups of the points of one body in one cell, of bodies whose points
+     * share their change of volume: each slot's group (no_group in other
+     * bodies; empty if there is no such body), and each group's cell.
+     */
+    static constexpr unsigned int no_group = static_cast<unsigned int>(-1);
+    std::vector<unsigned int>     group;
+    std::vector<unsigned int>     group_cell; ///< number in the window
+
+    /**
      * Reads the cloud; @p basis_of_body says which stencil each body uses,
-     * @p with_history whether any material has a history.
+     * @p with_history whether any material has a history, @p shared_volume
+     * whose points share their change of volume (empty: nobody's).
      */
     void
     reinit(const BackgroundGrid<dim>    &grid,
            const MaterialPoints<dim>    &points,
            const std::vector<BasisKind> &basis_of_body,
-           const bool                    with_history = false);
+           const bool                    with_history  = false,
+           const std::vector<bool>      &shared_volume = {});
 
     /** History of the point in a slot; of no use to a Material without one. */
     template <class Material>
@@ -64,6 +75,13 @@ namespace kedge
         return history[slot];
       else
         return {};
+    }
+
+    /** Whether the points of a batch share their change of volume. */
+    bool
+    is_grouped(const Batch &batch) const
+    {
+      return !group.empty() && group[batch.begin] != no_group;
     }
 
     unsigned int
@@ -83,6 +101,10 @@ namespace kedge
                const std::vector<unsigned int> &body,
                const std::vector<Stencil<dim>> &stencils,
                const unsigned int               n_bodies);
+    void
+    find_groups(const BackgroundGrid<dim>       &grid,
+                const std::vector<unsigned int> &cell,
+                const std::vector<bool>         &shared_volume);
   };
 
   /** The stress state of a committed history. */

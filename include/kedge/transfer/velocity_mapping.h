@@ -29,7 +29,7 @@ namespace kedge
            const ActiveNodes<dim>    &nodes,
            const NodeConditions<dim> &conditions,
            const NodeTies<dim>       &ties,
-           NodeMatrix<dim>           &mass,
+           const NodeMatrix<dim>     &mass,
            const bool                 new_pattern);
 
     /**

@@ -1,0 +1,113 @@
+#include <kedge/scene/numerics_declarations.h>
+
+namespace kedge
+{
+  namespace
+  {
+    template <int dim>
+    SectionDeclaration
+    newton(const ValuePatterns<dim> &allow)
+    {
+      return {"Newton",
+              "When a step counts as solved.",
+              SectionKind::plain,
+              {{"Tolerance",
+                "1e-11",
+                allow.number(NumberRange::positive()),
+                "Of |r_k| |du_k| / (|r_0| |du_1|), residual times correction [-]."},
+               {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."},
+               {"Log",
+                "false",
+                allow.truth(),
+                "Write newton.csv: every residual and correction, and the order."}}};
+    }
+
+    template <int dim>
+    SectionDeclaration
+    linear_solver(const ValuePatterns<dim> &allow)
+    {
+      return {
+        "Linear solver",
+        "How the linear systems are solved.",
+        SectionKind::plain,
+        {{"Method",
+          "auto",
+          allow.one_of({"auto", "banded", "direct", "krylov-ilu", "krylov-amg"}),
+          "auto chooses by size and bandwidth."},
+         {"Tolerance",
+          "1e-10",
+          allow.number(NumberRange::positive()),
+          "Relative residual of the Krylov methods [-]."},
+         {"Iterations", "1000", allow.whole_number(1), "At most, of the Krylov methods [-]."}}};
+    }
+
+    template <int dim>
+    SectionDeclaration
+    mapping(const ValuePatterns<dim> &allow)
+    {
+      NumberRange fraction = NumberRange::not_negative();
+      fraction.upper       = 1;
+      return {
+        "Mapping",
+        "Between material points and grid.",
+        SectionKind::plain,
+        {{"Velocity",
+          "flip",
+          allow.one_of({"flip", "pic"}),
+          "flip: points take the change of the grid's velocity. pic: the velocity itself, "
+          "which damps."},
+         {"Lumping",
+          "0",
+          allow.number(fraction),
+          "Mass matrix from 0, consistent, to 1, lumped [-]."},
+         {"Audit",
+          "false",
+          allow.truth(),
+          "Write transfer_audit.csv: what each mapping loses of momenta and kinetic energy."}}};
+    }
+
+    template <int dim>
+    SectionDeclaration
+    stabilisation(const ValuePatterns<dim> &allow)
+    {
+      NumberRange filling = NumberRange::positive();
+      filling.upper       = 1;
+      return {"Stabilisation",
+              "What is done about cells that the body fills badly.",
+              SectionKind::plain,
+              {{"Method",
+                "aggregation",
+                allow.one_of({"aggregation", "ghost", "none"}),
+                "aggregation: badly filled nodes follow well-filled cells. ghost: jumps of "
+                "gradients at partly filled cells are penalised, which dissipates."},
+               {"Smallest filling",
+                "0.05",
+                allow.number(filling),
+                "aggregation: nodes with less material than this are tied [cells]."},
+               {"Ghost mass factor",
+                "1e-6",
+                allow.number(NumberRange::not_negative()),
+                "ghost: of the mass penalty, over the density [-]."},
+               {"Ghost stiffness factor",
+                "1e-6",
+                allow.number(NumberRange::not_negative()),
+                "ghost: of the stiffness penalty, over Young's modulus [-]."}}};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<SectionDeclaration>
+  declare_numerics(const ValuePatterns<dim> &allow)
+  {
+    return {newton(allow), linear_solver(allow), mapping(allow), stabilisation(allow)};
+  }
+
+
+
+  template std::vector<SectionDeclaration>
+  declare_numerics<2>(const ValuePatterns<2> &);
+  template std::vector<SectionDeclaration>
+  declare_numerics<3>(const ValuePatterns<3> &);
+} // namespace kedge
