@@ -47,9 +47,9 @@ kedge_add_scene_test(scene.element_plasticity prm/element_plasticity.prm
   COMPARE_RANKS 1e-9)
 kedge_add_scene_test(scene.element_plasticity.half_step prm/element_plasticity.prm
   SET "Constants/steps = 400")
-foreach(path simple_shear tension_cycle turning_strain)
-  kedge_add_scene_test(path.${path} prm/paths/${path}.prm OPTIONS --drive)
-endforeach()
+kedge_add_scene_test(path.simple_shear prm/paths/simple_shear.prm OPTIONS --drive)
+kedge_add_scene_test(path.tension_cycle prm/paths/tension_cycle.prm OPTIONS --drive)
+kedge_add_scene_test(path.turning_strain prm/paths/turning_strain.prm OPTIONS --drive)
 kedge_add_scene_test(path.turning_strain.half_step prm/paths/turning_strain.prm
   OPTIONS --drive SET "Constants/steps = 400")
 kedge_add_scene_test(path.2ranks prm/paths/simple_shear.prm OPTIONS --drive RANKS 2)
@@ -108,6 +108,11 @@ kedge_add_test(scene.transfer_audit LABELS scene
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/transfer_audit.py
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/transfer_audit)
 
+# --- A path that turns the point inside out ends with the time and exit code 2 --
+kedge_add_scene_test(path.inverted prm/paths/simple_shear.prm OPTIONS --drive
+  SET "Path/Deformation gradient = 1 - t, 0, 0; 0, 1, 0; 0, 0, 1"
+  EXPECT_EXIT 2 EXPECT_STDOUT "stopped before t = 1 s: det F <= 0" EXPECT_STDERR "^$")
+
 # --- What a user may get wrong: refused with the cause, exit code 1 -----------
 function(kedge_add_refusal_test name message)
   kedge_add_scene_test(refusal.${name} tests/scenes/bad_input/${name}.prm
@@ -122,6 +127,14 @@ kedge_add_refusal_test(empty_body "Body 'block' got no material point")
 kedge_add_refusal_test(outside_grid
   "outside_grid\\.prm:19: Bodies/block/Geometry = .*from 3\\.5 to 4\\.5 in direction x, the grid only from 0 to 4")
 kedge_add_refusal_test(same_points "'other block'.*'block'|'block'.*'other block'")
+kedge_add_scene_test(refusal.deformed_path prm/paths/simple_shear.prm
+  OPTIONS --drive SET "Path/Deformation gradient = 2, 0, 0; 0, 1, 0; 0, 0, 1"
+  EXPECT_EXIT 1 EXPECT_STDERR "begins undeformed" LABELS refusal)
+kedge_add_scene_test(refusal.check_of_path prm/paths/simple_shear.prm
+  OPTIONS --drive SET "Checks/energy/Quantity = last(history.stran_energy)"
+  EXPECT_EXIT 1 EXPECT_STDERR "Did you mean 'strain_energy'" LABELS refusal)
+kedge_add_scene_test(refusal.drive_and_resume prm/paths/simple_shear.prm
+  OPTIONS --drive --resume EXPECT_EXIT 1 EXPECT_STDERR "neither --resume nor" LABELS refusal)
 kedge_add_refusal_test(missing_file "missing_file\\.prm.*No such file")
 # no process waits for another that has given up
 kedge_add_scene_test(refusal.empty_body.2ranks tests/scenes/bad_input/empty_body.prm
