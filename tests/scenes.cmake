@@ -29,7 +29,9 @@ kedge_add_scene_test(scene.translating_body prm/translating_body.prm
 # no penalty on a rigid motion: the same checks to the same tolerances
 kedge_add_scene_test(scene.translating_body.ghost prm/translating_body.prm
   SET "Stabilisation/Method = ghost")
-kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm COMPARE_RANKS 1e-6)
+# the penalties leave matrices with condition numbers up to 1e10: round-off of
+# 1e-16 in the ranks' different sums comes back as 1e-6
+kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm COMPARE_RANKS 1e-5)
 kedge_add_scene_test(scene.small_cuts.gimp prm/small_cuts.prm
   SET "Bodies/square/Basis = gimp" "Constants/shift = 3/8")
 kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm
