@@ -150,3 +150,11 @@ kedge_add_test(refusal.checkpoints LABELS scene refusal
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/scenes/spoilt_checkpoints.py
     $<TARGET_FILE:kedge> ${CMAKE_CURRENT_SOURCE_DIR}/scenes/bad_input/good.prm
     ${CMAKE_CURRENT_BINARY_DIR}/scenes/spoilt_checkpoints)
+
+# --- The short part of the stability bench --------------------------------------
+# Every case must finish or say why it stopped, and keep its books of energy to
+# 1e-8; how fast it is does not matter here.
+kedge_add_test(benchmark.stability
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/benchmarks/stability/run.py --short
+    --kedge $<TARGET_FILE:kedge> --output ${CMAKE_CURRENT_BINARY_DIR}/stability --jobs 1
+  LABELS scene benchmark TIMEOUT 600)

@@ -137,11 +137,20 @@ TEST(SolversNewton, PolishesWithTheLastTangent)
       return 1.;
     },
     1.);
-  rough.scale            = 0.;
+  rough.scale            = 1e5; // 1e-8 is not round-off of it, but accurate
   const auto not_smaller = solve_newton(rough, {});
   EXPECT_TRUE(not_smaller.converged);
+  EXPECT_EQ(not_smaller.iterations, 2u);
   EXPECT_EQ(not_smaller.residual_norms.size(), not_smaller.iterations + 1);
   EXPECT_NEAR(rough.x, -1e-8, 1e-20); // 1 -> 0 -> -1e-8, tried -2e-8
+
+  // a residual that meets the criterion but is large beside its terms: three
+  // iterations more, then it counts as converged all the same
+  rough.x          = 1.;
+  rough.scale      = 1.;
+  const auto large = solve_newton(rough, {});
+  EXPECT_TRUE(large.converged);
+  EXPECT_EQ(large.iterations, 5u);
 }
 
 TEST(SolversNewton, NeedsOneIterationForALinearProblem)
