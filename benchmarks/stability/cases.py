@@ -114,11 +114,12 @@ def unlike_neighbours():
 def endurance():
     """Many steps, and the beam that others give up on."""
     for kind in BASES:
-        yield Case("free flight", f"{kind} 10 000 steps", "tumbling.prm",
-                   {**constants(steps=10000, cfl=3), **basis("block", kind)})
-        yield Case("free flight", f"{kind} 1000 steps", "tumbling.prm",
-                   {**constants(steps=1000, cfl=3), **basis("block", kind)},
-                   short=kind == "gimp")
+        for spin, motion in ((0, "flying"), (0.1, "spinning")):
+            settings = {**constants(cfl=3, spin=spin), **basis("block", kind)}
+            yield Case("endurance", f"{kind} {motion}, 10 000 steps", "tumbling.prm",
+                       {**settings, **constants(steps=10000)})
+            yield Case("endurance", f"{kind} {motion}, 1000 steps", "tumbling.prm",
+                       {**settings, **constants(steps=1000)}, short=kind == "gimp")
     for h in (0.5, 0.25):
         yield Case("beam", f"2x2 points, h = {h}", "cantilever_static.prm",
                    constants(points=2, h=h), short=h == 0.5, scene_in_prm=True, conserving=False)

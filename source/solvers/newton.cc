@@ -20,6 +20,13 @@ namespace kedge
     /** Below this part of its terms a residual needs no polish: energy drifts by less. */
     constexpr double polished = 1e-13;
 
+    /**
+     * Above this part of its terms a residual that meets the criterion is still
+     * too large for the books of energy: a few iterations are added.
+     */
+    constexpr double       accurate              = 1e-12;
+    constexpr unsigned int most_iterations_added = 3;
+
     /** Corrections with kept factors, at most; each costs a residual and a substitution. */
     constexpr unsigned int most_polishes = 4;
 
@@ -131,6 +138,7 @@ namespace kedge
       return evaluation.residual_norm <= round_off * evaluation.scale;
     };
 
+    unsigned int n_added = 0;
     while (report.iterations < parameters.max_iterations)
       {
         double             correction_norm = 0.;
@@ -139,8 +147,9 @@ namespace kedge
         report.linear_iterations += linear.iterations;
         if (!linear.success || !std::isfinite(correction_norm))
           {
-            report.cause = (linear.success ? "the linear solver gave a value that is not finite"
-                                           : linear.cause) +
+            report.converged = false;
+            report.cause     = (linear.success ? "the linear solver gave a value that is not finite"
+                                               : linear.cause) +
                            iteration_text(report.iterations);
             return report;
           }
@@ -149,7 +158,8 @@ namespace kedge
         report.correction_norms.push_back(correction_norm);
         if (!evaluation.ok)
           {
-            report.cause = evaluation.cause + iteration_text(report.iterations);
+            report.converged = false;
+            report.cause     = evaluation.cause + iteration_text(report.iterations);
             return report;
           }
         if (report.iterations == 1)
@@ -161,14 +171,19 @@ namespace kedge
             for (unsigned int k = 0; k < most_polishes && !at_round_off(); ++k)
               if (!polish(problem, evaluation, report))
                 break;
-            return report;
+            if (evaluation.residual_norm <= accurate * evaluation.scale ||
+                n_added++ == most_iterations_added)
+              return report;
           }
         if (evaluation.residual_norm > divergence * first_residual && report.iterations > 2)
           {
+            report.converged = false;
             report.cause = "the residual grew without bound" + iteration_text(report.iterations);
             return report;
           }
       }
+    if (report.converged)
+      return report;
     report.cause = "no convergence in " + std::to_string(parameters.max_iterations) +
                    " Newton iterations" + residual_trail(report);
     return report;

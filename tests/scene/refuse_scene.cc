@@ -108,19 +108,19 @@ TEST(SceneRead, WrongValuesAreAnsweredWithWhatIsAllowed)
 TEST(SceneRead, ErrorsNameFileAndLine)
 {
   expect_parts(message_of(with("Reference = -8.28", "Reference = 0")),
-               {":138: Checks/deflection/Tolerance = 0.5 %", "percentage of the reference 0"});
+               {":139: Checks/deflection/Tolerance = 0.5 %", "percentage of the reference 0"});
   expect_parts(message_of(with("Density = 1000", "Density = -1000")),
                {"folder/beam.prm:20: Materials/soft/Density = -1000: ", "greater than 0"});
   expect_parts(message_of(with("    set Density = 1000\n", "")),
                {"folder/beam.prm:19: Materials/soft/Density must be given: a number"});
   expect_parts(message_of(with("set End = 1 + 2*h", "set End = 1")),
-               {"folder/beam.prm:85: Time/End = 1: "});
+               {"folder/beam.prm:86: Time/End = 1: "});
 }
 
 TEST(SceneRead, NamesAreUniqueAndSimple)
 {
   expect_parts(message_of(full_scene + "subsection Bodies\nsubsection beam\nend\nend\n"),
-               {"folder/beam.prm:", "the name Bodies/beam is given a second time; line 33"});
+               {"folder/beam.prm:", "the name Bodies/beam is given a second time; line 34"});
   expect_parts(message_of(with("subsection tip", "subsection t.p")),
                {"the name 't.p' may not hold"});
   expect_parts(message_of(with("subsection beam", "subsection a/b")), {"'a/b' may not hold"});

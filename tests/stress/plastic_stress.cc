@@ -204,29 +204,35 @@ TYPED_TEST(StressPlastic, TangentOfTheConservingStress)
 TYPED_TEST(StressPlastic, ConservingStressWorksWhatIsStoredAndDissipated)
 {
   // the discrete Clausius-Planck identity S : dC/2 = P : A = dPsi_1 + dPsi_2 + dD
-  constexpr int dim     = TypeParam::value;
-  const auto    n_steps = for_many_steps<dim>(
-    {decades, {Start::far_inside, Start::on_surface, Start::inside}, 10},
-    [](const Step<dim> &step) {
-      const auto result = evaluate<dim, StressRule::conserving>(step, 0.5);
-      ASSERT_TRUE(result.valid);
-      const Matrix F     = combine(1, Matrix::identity(), 1, to_matrix<dim>(step.A));
-      const State  state = reference_state<dim>(step.point);
-      const Answer begin = committed(step.material, state),
-                   end   = after_step(step.material, state, F);
-      const Quad stored  = end.energy() - begin.energy();
-      double     work = 0., scale = 0.;
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          {
-            work += result.stress[i][j] * step.A[i][j];
-            scale += std::abs(result.stress[i][j] * step.A[i][j]);
-          }
-      EXPECT_GE(end.dissipation, 0);
-      // no term of the sum P : A errs by more than a few roundings of P
-      EXPECT_NEAR(work, static_cast<double>(stored + end.dissipation), 1e-13 * scale);
-      EXPECT_NEAR(work, result.work_increment, 1e-13 * scale);
-    });
+  constexpr int dim = TypeParam::value;
+  const auto    n_steps =
+    for_many_steps<dim>({decades, {Start::far_inside, Start::on_surface, Start::inside}, 10},
+                        [](const Step<dim> &step) {
+                          const auto result = evaluate<dim, StressRule::conserving>(step, 0.5);
+                          ASSERT_TRUE(result.valid);
+                          const Matrix F =
+                            combine(1, Matrix::identity(), 1, to_matrix<dim>(step.A));
+                          const State  state  = reference_state<dim>(step.point);
+                          const Answer begin  = committed(step.material, state),
+                                       end    = after_step(step.material, state, F);
+                          const Quad expected = end.work_since(begin);
+                          double     work = 0., scale = 0.;
+                          for (int i = 0; i < dim; ++i)
+                            for (int j = 0; j < dim; ++j)
+                              {
+                                work += result.stress[i][j] * step.A[i][j];
+                                scale += std::abs(result.stress[i][j] * step.A[i][j]);
+                              }
+                          EXPECT_GE(end.dissipation, 0);
+                          // No term of the sum P : A errs by more than a few roundings of P; for
+                          // the reference the stress of a strained state is known to its round-off
+                          // only.
+                          const bool strained = step.point.kirchhoff_stress.norm() > 0.;
+                          EXPECT_NEAR(work, result.work_increment, 1e-13 * scale);
+                          EXPECT_NEAR(work,
+                                      static_cast<double>(expected),
+                                      1e-13 * scale + (strained ? 2e-16 * step.size : 0.));
+                        });
   expect_both_kinds(n_steps);
 }
 

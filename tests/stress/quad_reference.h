@@ -157,10 +157,12 @@ namespace kedge::reference
     Quad   dissipation               = 0; ///< of the step
     Quad   equivalent_plastic_strain = 0;
 
+    /** dPsi_1 + dPsi_2 + dD since @p begin, each difference taken for itself. */
     Quad
-    energy() const
+    work_since(const Answer &begin) const
     {
-      return elastic_energy + hardening_energy;
+      return (elastic_energy - begin.elastic_energy) + (hardening_energy - begin.hardening_energy) +
+             dissipation;
     }
   };
 
@@ -254,7 +256,7 @@ namespace kedge::reference
     const Matrix F   = combine(1, Matrix::identity(), 1, A);
     const Answer end = after_step(material, state, F);
     return {end.kirchhoff_stress * transpose(inverse(F)),
-            end.energy() - committed(material, state).energy() + end.dissipation};
+            end.work_since(committed(material, state))};
   }
 
   /** P of StressRule::conserving by the printed quotient (3.142), which 113 bits bear. */
@@ -270,7 +272,7 @@ namespace kedge::reference
     const Matrix mean =
       combine(0.5, begin.kirchhoff_stress, 0.5, pull * end.kirchhoff_stress * transpose(pull));
     const Matrix N      = state.left_cauchy_green * E * state.left_cauchy_green;
-    const Quad   work   = end.energy() - begin.energy() + end.dissipation;
+    const Quad   work   = end.work_since(begin);
     const Quad   square = contract(E, N);
     const Quad   q      = square == 0 ? Quad(0) : (2 * work - contract(mean, E)) / square;
     return {combine(1, one, 0.5, A) * combine(1, mean, q, N), work};
