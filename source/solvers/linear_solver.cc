@@ -35,10 +35,13 @@ namespace kedge
     }
 
     double
-    umfpack_time(const double n, const int space_dimension)
+    umfpack_time(const double n, const double entries_per_row, const int space_dimension)
     {
-      return space_dimension == 2 ? 7e-6 * n * std::pow(std::max(n, 1e3) / 1e4, 0.3)
-                                  : 1e-4 * n * std::pow(std::max(n, 1e2) / 1.5e4, 1.1);
+      if (space_dimension == 2)
+        return 7e-6 * n * std::pow(std::max(n, 1e3) / 1e4, 0.3);
+      // a wider stencil than that of trilinear elements costs more
+      const double width = std::max(entries_per_row / 81., 1.);
+      return 1e-4 * n * std::pow(std::max(n, 1e2) / 1.5e4, 1.1) * width;
     }
 
     /** Above these sizes iterative methods win. */
@@ -78,9 +81,11 @@ namespace kedge
         const double n      = static_cast<double>(system.n_global);
         const double banded = banded_time(n, static_cast<double>(bandwidth(system))) *
                               (traits.positive_definite ? 0.3 : 1.);
+        double entries = static_cast<double>(system.column.size());
+        MPI_Allreduce(MPI_IN_PLACE, &entries, 1, MPI_DOUBLE, MPI_SUM, system.communicator);
         const bool large =
           system.n_global > (traits.space_dimension == 2 ? largest_direct_2d : largest_direct_3d);
-        if (banded < umfpack_time(n, traits.space_dimension))
+        if (banded < umfpack_time(n, entries / std::max(n, 1.), traits.space_dimension))
           kind = LinearSolverKind::banded;
         else if (!large)
           kind = LinearSolverKind::direct;
