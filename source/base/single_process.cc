@@ -21,5 +21,8 @@ namespace kedge
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep_what_is_set);
     setenv("OMPI_MCA_pml", "ob1", keep_what_is_set);
     setenv("OMPI_MCA_btl", "self", keep_what_is_set);
+    // a folder in /tmp shared by all processes of a user: those that start as
+    // another ends may find it gone, and fail
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", keep_what_is_set);
   }
 } // namespace kedge
