@@ -218,7 +218,11 @@ namespace kedge
       step_work += problem.reaction_work();
     if (has_ghosts())
       ghost_work = work_against_ghosts();
-    if (!conditions.empty())
+    if (std::any_of(scene.node_conditions.begin(),
+                    scene.node_conditions.end(),
+                    [](const auto &condition) {
+                      return condition.reaction;
+                    }))
       reactions = problem.reactions();
 
     if (scheme.dynamic)

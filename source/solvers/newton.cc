@@ -141,15 +141,15 @@ namespace kedge
     unsigned int n_added = 0;
     while (report.iterations < parameters.max_iterations)
       {
+        report.converged                   = false; // an added iteration has to hold as well
         double             correction_norm = 0.;
         const LinearStatus linear          = problem.solve_correction(correction_norm, false);
         ++report.iterations;
         report.linear_iterations += linear.iterations;
         if (!linear.success || !std::isfinite(correction_norm))
           {
-            report.converged = false;
-            report.cause     = (linear.success ? "the linear solver gave a value that is not finite"
-                                               : linear.cause) +
+            report.cause = (linear.success ? "the linear solver gave a value that is not finite"
+                                           : linear.cause) +
                            iteration_text(report.iterations);
             return report;
           }
@@ -158,8 +158,7 @@ namespace kedge
         report.correction_norms.push_back(correction_norm);
         if (!evaluation.ok)
           {
-            report.converged = false;
-            report.cause     = evaluation.cause + iteration_text(report.iterations);
+            report.cause = evaluation.cause + iteration_text(report.iterations);
             return report;
           }
         if (report.iterations == 1)

@@ -145,7 +145,7 @@ TEST(IoHistoryWriter, RefusesToResumeAnotherFile)
 TEST(IoHistoryWriter, FullDiskIsTheUsersError)
 {
   if (!std::filesystem::exists("/dev/full")) // a file on a full disk, on Linux
-    GTEST_SKIP();
+    GTEST_SKIP() << "this system has no /dev/full to stand for a full disk";
   EXPECT_THROW(CsvFile("/dev/full", {"a"}), UserError);
 }
 

@@ -61,7 +61,10 @@ namespace kedge
    * more correction with the tangent at hand polishes the solution, and a few
    * more as long as each helps and round-off is not near: they cost no
    * factorisation, and what is left of the residual is what conservation of
-   * energy and momenta lacks.
+   * energy and momenta lacks. If it is still more than 1e-12 of the residual's
+   * terms, up to three iterations are added; the criterion must hold at the last
+   * one too. From the fifth correction on, one that stagnates is halved until the
+   * residual falls.
    */
   NewtonReport
   solve_newton(NewtonProblem &problem, const NewtonParameters &parameters);
