@@ -109,14 +109,50 @@ namespace kedge
 
   template <int dim>
   Stencil<dim>
+  quadratic_stencil(const Lattice<dim>       &lattice,
+                    const LatticeWindow<dim> &window,
+                    const dealii::Point<dim> &x)
+  {
+    Stencil<dim>            stencil;
+    const LatticeIndex<dim> cell = lattice.cell_of(x);
+    LatticeIndex<dim>       first;
+    for (int d = 0; d < dim; ++d)
+      {
+        first[d]               = cell[d] - cell[d] % 2;
+        const double xi        = 0.5 * (lattice.scaled(x[d], d) - first[d]);
+        const double inverse_l = 0.5 / lattice.h[d];
+        stencil.value[d][0]    = (1. - xi) * (1. - 2. * xi);
+        stencil.value[d][1]    = 4. * xi * (1. - xi);
+        stencil.value[d][2]    = xi * (2. * xi - 1.);
+        stencil.slope[d][0]    = (4. * xi - 3.) * inverse_l;
+        stencil.slope[d][1]    = (4. - 8. * xi) * inverse_l;
+        stencil.slope[d][2]    = (4. * xi - 1.) * inverse_l;
+      }
+    stencil.pattern    = n_stencil_patterns<dim> - 1;
+    stencil.first_node = window.node_number(first);
+    return stencil;
+  }
+
+
+
+  template <int dim>
+  Stencil<dim>
   make_stencil(const BasisKind               basis,
                const Lattice<dim>           &lattice,
                const LatticeWindow<dim>     &window,
                const dealii::Point<dim>     &x,
                const dealii::Tensor<1, dim> &half_lengths)
   {
-    return basis == BasisKind::linear ? linear_stencil(lattice, window, x) :
-                                        gimp_stencil(lattice, window, x, half_lengths);
+    switch (basis)
+      {
+        case BasisKind::linear:
+          return linear_stencil(lattice, window, x);
+        case BasisKind::quadratic:
+          return quadratic_stencil(lattice, window, x);
+        case BasisKind::gimp:
+        default:
+          return gimp_stencil(lattice, window, x, half_lengths);
+      }
   }
 
 #define KEDGE_INSTANTIATE(dim)                                                                  \
@@ -127,6 +163,9 @@ namespace kedge
                                      const LatticeWindow<dim> &,                                \
                                      const dealii::Point<dim> &,                                \
                                      const dealii::Tensor<1, dim> &);                           \
+  template Stencil<dim> quadratic_stencil(const Lattice<dim> &,                                 \
+                                          const LatticeWindow<dim> &,                           \
+                                          const dealii::Point<dim> &);                          \
   template Stencil<dim> make_stencil(const BasisKind,                                           \
                                      const Lattice<dim> &,                                      \
                                      const LatticeWindow<dim> &,                                \

@@ -37,13 +37,14 @@ namespace kedge
       {
         const int spread = std::max(window_margin, cells.n_cells[d] / 8);
         window_.low[d]   = std::max(0, cells.low[d] - spread);
-        const int end    = std::min(lattice_.n_cells[d], cells.low[d] + cells.n_cells[d] + spread);
+        window_.low[d] -= window_.low[d] % lattice_.node_intervals; // whole elements
+        const int end = std::min(lattice_.n_cells[d], cells.low[d] + cells.n_cells[d] + spread);
         window_.n_cells[d] = std::max(2, end - window_.low[d]); // room for three nodes
       }
     n_refinements = 0;
     while (window_.n_cells_total() >> (dim * n_refinements) > most_trees)
       ++n_refinements;
-    const int unit = 1 << n_refinements;
+    const int unit = std::max(1 << n_refinements, lattice_.node_intervals);
     for (int d = 0; d < dim; ++d)
       window_.n_cells[d] = (window_.n_cells[d] + unit - 1) / unit * unit;
 

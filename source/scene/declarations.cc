@@ -177,8 +177,9 @@ namespace kedge
             "Material points per grid cell and direction [-]."},
            {"Basis",
             "gimp",
-            allow.one_of({"linear", "gimp"}),
-            "linear: points without extent. gimp: points with a domain, smoother."},
+            allow.one_of({"linear", "gimp", "quadratic"}),
+            "linear: points without extent. gimp: points with a domain, smoother. quadratic: "
+            "points without extent in quadratic elements (all bodies)."},
            {"Initial velocity",
             per_direction("0", "; "),
             allow.expressions(coordinates("xyz"), coordinate_words("xyz")),

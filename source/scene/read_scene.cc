@@ -118,7 +118,13 @@ namespace kedge
         body.geometry        = parse_geometry<dim>(section.text("Geometry"), section.constants());
         body.material        = find_name(reader, section, "Material", "Materials");
         body.points_per_cell = counts<dim>(section, "Points per cell");
-        body.basis = section.text("Basis") == "gimp" ? BasisKind::gimp : BasisKind::linear;
+        const std::string basis = section.text("Basis");
+        body.basis              = basis == "gimp"        ? BasisKind::gimp
+                                  : basis == "quadratic" ? BasisKind::quadratic
+                                                         : BasisKind::linear;
+        if (!bodies.empty() &&
+            (bodies[0].basis == BasisKind::quadratic) != (body.basis == BasisKind::quadratic))
+          throw section.error("Basis", "If a body is quadratic, all of them must be.");
         body.initial_velocity = components<dim>(section, "Initial velocity");
         body.body_force       = section.truth("Body force");
         check_inside_grid(section, *body.geometry, grid);
@@ -357,6 +363,27 @@ namespace kedge
       });
       return probes;
     }
+
+    /** Gives the grid the nodes of quadratic elements, if a body wants them. */
+    template <int dim>
+    void
+    set_elements(const ParameterReader &reader, Scene<dim> &scene)
+    {
+      if (scene.bodies[0].basis != BasisKind::quadratic)
+        return;
+      scene.grid.node_intervals = 2;
+      if (scene.stabilisation.method == StabilisationKind::ghost)
+        throw SectionReader(reader, {"Stabilisation"})
+          .error("Method",
+                 "The ghost penalty is made for linear elements; with the quadratic basis choose "
+                 "aggregation or none.");
+      for (const MaterialParameters &material : scene.materials)
+        if (material.volume_change == VolumeChange::cell_mean)
+          throw SectionReader(reader, {"Materials", material.name})
+            .error("Volume change",
+                   "The mean over a cell is made for linear elements, which lock; with the "
+                   "quadratic basis take pointwise.");
+    }
   } // namespace
 
 
@@ -410,10 +437,11 @@ namespace kedge
     scene.linear_solver   = read_linear_solver(reader);
     scene.transfer        = read_mapping(reader);
     scene.stabilisation   = read_stabilisation(reader);
-    scene.output          = read_output(reader, scene.time);
-    scene.probes          = read_probes<dim>(reader);
-    scene.checks          = read_checks(reader, scene.time);
-    scene.parameters      = reader.print();
+    set_elements(reader, scene);
+    scene.output     = read_output(reader, scene.time);
+    scene.probes     = read_probes<dim>(reader);
+    scene.checks     = read_checks(reader, scene.time);
+    scene.parameters = reader.print();
     return scene;
   }
 

@@ -11,7 +11,7 @@ namespace kedge
       if (scene.stabilisation.method == StabilisationKind::ghost)
         return 2; // a face couples the outer nodes of its two cells
       for (const auto &body : scene.bodies)
-        if (body.basis == BasisKind::gimp)
+        if (body.basis != BasisKind::linear)
           return 2;
       return 1;
     }

@@ -24,13 +24,15 @@ namespace kedge
   std::vector<PointRecord<dim>>
   StepEngine<dim>::generate_records()
   {
+    GridParameters<dim> elements = scene.grid;
+    elements.node_intervals      = 1;
     std::vector<GeneratedPoint<dim>> points;
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       {
         auto of_body = generate_points(scene.bodies[b],
                                        b,
                                        scene.materials[scene.bodies[b].material].density,
-                                       background.lattice(),
+                                       Lattice<dim>(elements),
                                        scene.constants,
                                        points.size());
         if (points.empty())

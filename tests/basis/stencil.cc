@@ -228,8 +228,10 @@ TYPED_TEST(BasisStencil, SnapsToGridLinesThatItHardlyPasses)
   for (int d = 0; d < dim; ++d)
     x[d] += 2.2 * lattice.h[d];
   const auto linear = linear_stencil(lattice, whole(lattice), x);
-  const auto less   = gimp_stencil(lattice, whole(lattice), x, (0.2 + 0.999 * gimp_smallest_overlap) * lattice.h);
-  const auto more   = gimp_stencil(lattice, whole(lattice), x, (0.2 + 1.001 * gimp_smallest_overlap) * lattice.h);
+  const auto less =
+    gimp_stencil(lattice, whole(lattice), x, (0.2 + 0.999 * gimp_smallest_overlap) * lattice.h);
+  const auto more =
+    gimp_stencil(lattice, whole(lattice), x, (0.2 + 1.001 * gimp_smallest_overlap) * lattice.h);
   EXPECT_EQ(less.pattern, 0u);
   EXPECT_EQ(more.pattern, (1u << dim) - 1);
   for (int d = 0; d < dim; ++d)
@@ -241,5 +243,54 @@ TYPED_TEST(BasisStencil, SnapsToGridLinesThatItHardlyPasses)
       const double s = gimp_smallest_overlap;
       EXPECT_NEAR(more.value[d][0], s * s / 0.8, 0.01 * s * s / 0.8);
       EXPECT_NEAR(more.slope[d][0] * lattice.h[d], -s / 0.4, 0.01 * s / 0.4);
+    }
+}
+
+TYPED_TEST(BasisStencil, QuadraticElementsReproduceQuadraticFieldsAndAreOneAtTheirNodes)
+{
+  constexpr int       dim = TypeParam::value;
+  GridParameters<dim> parameters;
+  for (int d = 0; d < dim; ++d)
+    {
+      parameters.n_cells[d] = 3;
+      parameters.origin[d]  = -0.4;
+      parameters.extent[d]  = 2.1;
+    }
+  parameters.node_intervals = 2;
+  const Lattice<dim> lattice(parameters);
+  Sampler            random;
+  for (unsigned int sample = 0; sample < 200; ++sample)
+    {
+      dealii::Point<dim> x;
+      for (int d = 0; d < dim; ++d)
+        x[d] = sample == 0 ? lattice.origin[d] + lattice.h[d]
+                           : random(lattice.origin[d], lattice.upper(d));
+      const auto stencil = quadratic_stencil(lattice, whole(lattice), x);
+      const auto first   = first_index<dim>(lattice, stencil);
+      for (int d = 0; d < dim; ++d)
+        {
+          // moments of 1, x, x^2 and their derivatives, about the place itself
+          double value[3] = {0., 0., 0.}, slope[3] = {0., 0., 0.};
+          for (int i = 0; i < 3; ++i)
+            {
+              const double s = lattice.origin[d] + (first[d] + i) * lattice.h[d] - x[d];
+              for (int k = 0; k < 3; ++k)
+                {
+                  value[k] += stencil.value[d][i] * std::pow(s, k);
+                  slope[k] += stencil.slope[d][i] * std::pow(s, k);
+                }
+              if (sample == 0) // the middle node of the first element
+                {
+                  EXPECT_NEAR(stencil.value[d][i], i == 1 ? 1. : 0., 1e-15);
+                }
+            }
+          EXPECT_EQ(first[d] % 2, 0);
+          // a few roundings of values of order 1 and of slopes up to 4/0.7
+          for (int k = 0; k < 3; ++k)
+            {
+              EXPECT_NEAR(value[k], k == 0 ? 1. : 0., 5e-15);
+              EXPECT_NEAR(slope[k], k == 1 ? 1. : 0., 2e-14);
+            }
+        }
     }
 }

@@ -11,7 +11,7 @@ namespace kedge
    * as one-dimensional factors: N_A = prod_d value[d][i_d] and dN_A/dx_e =
    * slope[e][i_e] prod_{d != e} value[d][i_d], node A = first_node + i. In
    * each direction there are two nodes, or three if a GIMP domain straddles a
-   * grid line.
+   * grid line and in a quadratic element.
    */
   template <int dim>
   struct Stencil
@@ -75,7 +75,19 @@ namespace kedge
                const dealii::Point<dim>     &x,
                const dealii::Tensor<1, dim> &half_lengths);
 
-  /** The stencil of either kind. */
+  /**
+   * The quadratic Lagrange functions of the element around @p x, whose nodes
+   * are those of 2^dim cells of the lattice: with xi in [0, 1] along an edge
+   *   N_0 = (1 - xi)(1 - 2 xi),  N_1 = 4 xi (1 - xi),  N_2 = xi (2 xi - 1).
+   * They span the space of deal.II's FE_Q(2) on the elements.
+   */
+  template <int dim>
+  Stencil<dim>
+  quadratic_stencil(const Lattice<dim>       &lattice,
+                    const LatticeWindow<dim> &window,
+                    const dealii::Point<dim> &x);
+
+  /** The stencil of any kind. */
   template <int dim>
   Stencil<dim>
   make_stencil(const BasisKind               basis,

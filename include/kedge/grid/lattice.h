@@ -12,8 +12,10 @@ namespace kedge
   using LatticeIndex = std::array<int, dim>;
 
   /**
-   * The Cartesian geometry of the background grid's box. Cell c covers
-   * [origin + c h, origin + (c+1) h]; node i stands at origin + i h.
+   * The Cartesian geometry of the background grid's nodes. Cell c covers
+   * [origin + c h, origin + (c+1) h]; node i stands at origin + i h. Quadratic
+   * elements have a node in the middle of their edges: each is made of 2^dim
+   * cells of the lattice and begins at an even one.
    */
   template <int dim>
   struct Lattice
@@ -21,13 +23,15 @@ namespace kedge
     dealii::Point<dim>     origin;
     dealii::Tensor<1, dim> h; ///< cell size per direction [m]
     LatticeIndex<dim>      n_cells;
+    int                    node_intervals; ///< cells of the lattice along an element's edge
 
     explicit Lattice(const GridParameters<dim> &parameters)
       : origin(parameters.origin)
+      , node_intervals(static_cast<int>(parameters.node_intervals))
     {
       for (int d = 0; d < dim; ++d)
         {
-          n_cells[d] = static_cast<int>(parameters.n_cells[d]);
+          n_cells[d] = static_cast<int>(parameters.n_cells[d]) * node_intervals;
           h[d]       = parameters.extent[d] / n_cells[d];
         }
     }

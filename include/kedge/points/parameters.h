@@ -13,7 +13,8 @@ namespace kedge
   enum class BasisKind
   {
     linear,
-    gimp
+    gimp,
+    quadratic
   };
 
   /** One body: where its material points stand and what they start with. */
