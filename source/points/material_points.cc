@@ -109,43 +109,51 @@ namespace kedge
   {
     // a part of the movers at a time, whose copies take little memory
     const std::size_t most = std::max<std::size_t>(most_movers, n_local() / 8);
-    while (move_some(grid, most))
-      ;
+    auto              cell = grid.triangulation().begin_active();
+    do
+      move_some(grid, most, cell);
+    while (
+      dealii::Utilities::MPI::logical_or(cell != grid.triangulation().end(), grid.communicator()));
     return n_global_ - handler->n_global_particles();
   }
 
 
 
   template <int dim>
-  bool
-  MaterialPoints<dim>::move_some(const BackgroundGrid<dim> &grid, const std::size_t most)
+  void
+  MaterialPoints<dim>::move_some(const BackgroundGrid<dim> &grid,
+                                 const std::size_t          most,
+                                 ActiveCell                &cell)
   {
     using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
     const unsigned int    rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
     std::vector<Iterator> movers;
     std::vector<PointRecord<dim>> staying, leaving;
-    for (auto particle = handler->begin(); particle != handler->end() && movers.size() < most;
-         ++particle)
-      {
-        const auto cell  = grid.lattice().cell_of(particle->get_location());
-        const bool stays = grid.cell_owner(cell) == rank;
-        if (stays && particle->get_surrounding_cell() == grid.cell_iterator(cell))
-          continue;
-        movers.push_back(particle);
-        (stays ? staying : leaving)
-          .push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
-      }
+    for (; cell != grid.triangulation().end() && movers.size() < most; ++cell)
+      if (cell->is_locally_owned())
+        {
+          const auto particles = handler->particles_in_cell(cell);
+          for (auto particle = particles.begin(); particle != particles.end(); ++particle)
+            {
+              const auto new_cell = grid.lattice().cell_of(particle->get_location());
+              const bool stays    = grid.cell_owner(new_cell) == rank;
+              if (stays && cell == grid.cell_iterator(new_cell))
+                continue;
+              movers.push_back(particle);
+              (stays ? staying : leaving)
+                .push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
+            }
+        }
     const bool parallel = dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1;
-    if (parallel || !movers.empty()) // counts the particles anew: collective
-      handler->remove_particles(movers);
+    if (!parallel && movers.empty())
+      return;
+    handler->remove_particles(movers); // counts the particles anew: collective
     for (const auto &record : staying)
       insert(grid, record);
     if (parallel)
       for (const auto &record : send_to_owners(grid, leaving))
         insert(grid, record);
-    if (parallel || !movers.empty())
-      handler->update_cached_numbers();
-    return dealii::Utilities::MPI::logical_or(movers.size() == most, grid.communicator());
+    handler->update_cached_numbers();
   }
 
   template class MaterialPoints<2>;

@@ -264,6 +264,52 @@ namespace kedge
       }
   }
 
+  template <int dim>
+  std::vector<unsigned int>
+  node_neighbours(const NodeMatrix<dim>    &matrix,
+                  const LatticeWindow<dim> &window,
+                  const ActiveNodes<dim>   &nodes)
+  {
+    std::vector<unsigned int> neighbours(std::size_t(nodes.n_local()) * matrix.n_slots());
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      {
+        unsigned int *row = &neighbours[std::size_t(i) * matrix.n_slots()];
+        std::fill_n(row, matrix.n_slots(), i);
+        for_neighbours(window,
+                       nodes,
+                       i,
+                       matrix,
+                       [&](const unsigned int slot, const unsigned int neighbour) {
+                         row[slot] = neighbour;
+                       });
+      }
+    return neighbours;
+  }
+
+
+
+  template <int dim>
+  void
+  multiply(const NodeMatrix<dim>           &matrix,
+           const std::vector<unsigned int> &neighbours,
+           const std::vector<double>       &x,
+           std::vector<double>             &y)
+  {
+    const unsigned int n_slots = matrix.n_slots();
+    const std::size_t  n_nodes = neighbours.size() / n_slots;
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      {
+        const double       *row       = matrix.row(i, 0);
+        const unsigned int *neighbour = &neighbours[i * n_slots];
+        double              sum[dim]  = {};
+        for (unsigned int s = 0; s < n_slots; ++s)
+          for (int d = 0; d < dim; ++d)
+            sum[d] += row[s] * x[std::size_t(neighbour[s]) * dim + d];
+        for (int d = 0; d < dim; ++d)
+          y[i * dim + d] = sum[d];
+      }
+  }
+
 #define KEDGE_INSTANTIATE(dim)                                                   \
   template void assemble_mass(const StepPoints<dim> &,                           \
                               const LatticeWindow<dim> &,                        \
@@ -292,12 +338,19 @@ namespace kedge
                                     const ActiveNodes<dim> &,                    \
                                     const std::vector<double> &,                 \
                                     std::vector<dealii::Tensor<2, dim>> &);      \
-  template void multiply(const NodeMatrix<dim> &,                                \
-                         const LatticeWindow<dim> &,                             \
-                         const ActiveNodes<dim> &,                               \
-                         const unsigned int,                                     \
-                         const std::vector<double> &,                            \
-                         std::vector<double> &);
+  template std::vector<unsigned int> node_neighbours(const NodeMatrix<dim> &,    \
+                                                     const LatticeWindow<dim> &, \
+                                                     const ActiveNodes<dim> &);  \
+  template void                      multiply(const NodeMatrix<dim> &,           \
+                                              const std::vector<unsigned int> &, \
+                                              const std::vector<double> &,       \
+                                              std::vector<double> &);            \
+  template void                      multiply(const NodeMatrix<dim> &,           \
+                                              const LatticeWindow<dim> &,        \
+                                              const ActiveNodes<dim> &,          \
+                                              const unsigned int,                \
+                                              const std::vector<double> &,       \
+                                              std::vector<double> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 } // namespace kedge

@@ -100,9 +100,14 @@ namespace kedge
       return *reinterpret_cast<PointState<dim> *>(particle.get_properties().data());
     }
 
-    /** Moves at most so many points; returns whether more may have to move (collective). */
-    bool
-    move_some(const BackgroundGrid<dim> &grid, const std::size_t most);
+    using ActiveCell = typename dealii::Triangulation<dim>::active_cell_iterator;
+
+    /**
+     * Moves the points of the cells from @p cell on that have left them, until it is
+     * about so many, and sets the cell to go on from (collective).
+     */
+    void
+    move_some(const BackgroundGrid<dim> &grid, const std::size_t most, ActiveCell &cell);
     void
     insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
 

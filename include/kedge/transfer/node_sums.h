@@ -69,6 +69,28 @@ namespace kedge
                       std::vector<dealii::Tensor<2, dim>> &gradients);
 
   /**
+   * The local node at each slot of each row of a NodeMatrix, to multiply with
+   * it many times. Slots without an active node, where the matrix is zero, have
+   * the row's own node.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  node_neighbours(const NodeMatrix<dim>    &matrix,
+                  const LatticeWindow<dim> &window,
+                  const ActiveNodes<dim>   &nodes);
+
+  /**
+   * y = A x, dim values per local node, for a matrix with one component; see the
+   * other multiply().
+   */
+  template <int dim>
+  void
+  multiply(const NodeMatrix<dim>           &matrix,
+           const std::vector<unsigned int> &neighbours,
+           const std::vector<double>       &x,
+           std::vector<double>             &y);
+
+  /**
    * y = A x with this rank's share of the matrix: partial sums at all local
    * nodes. Ghost values of x must be up to date.
    */

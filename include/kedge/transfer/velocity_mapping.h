@@ -14,6 +14,10 @@ namespace kedge
    *   sum_B M~_AB v_B = sum_p m N_A v_p,
    * solved for the free components; prescribed components have their given
    * value. It is the projection, in the mass norm, onto what the grid can do.
+   *
+   * The mass matrix of well filled cells is so well conditioned that a few
+   * conjugate-gradient iterations, scaled by the lumped mass, solve it to round-off,
+   * whatever its size; it is factorised only where they do not.
    */
   template <int dim>
   class VelocityMapping
@@ -54,12 +58,43 @@ namespace kedge
       std::unique_ptr<LinearSolver> solver;
       SparseSystem                  raised; ///< with a slightly larger diagonal
       bool                          is_factorised = false;
+      bool                          has_pattern   = false;
     };
 
+    void
+    find_components(const NodeConditions<dim> &conditions,
+                    const ActiveNodes<dim>    &nodes,
+                    const NodeTies<dim>       &ties);
+    void
+    set_scaling(const ActiveNodes<dim> &nodes,
+                const NodeTies<dim>    &ties,
+                const NodeMatrix<dim>  &mass);
+    void
+    apply_mass(const ActiveNodes<dim> &nodes,
+               const NodeTies<dim>    &ties,
+               const NodeMatrix<dim>  &mass,
+               std::vector<double>    &nodal,
+               std::vector<double>    &product) const;
+    bool
+    iterate(const ActiveNodes<dim> &nodes,
+            const NodeTies<dim>    &ties,
+            const NodeMatrix<dim>  &mass,
+            std::vector<double>     residual,
+            std::vector<double>    &correction,
+            double                 &energy) const;
+    LinearStatus
+    factorise_all(const BackgroundGrid<dim> &grid,
+                  const ActiveNodes<dim>    &nodes,
+                  const NodeTies<dim>       &ties,
+                  const NodeMatrix<dim>     &mass);
     LinearStatus
     factorise(Component &component);
     LinearStatus
     correct(const std::vector<double> &defect, std::vector<double> &nodal, double &energy);
+
+    std::vector<unsigned int> neighbours;      ///< see node_neighbours()
+    std::vector<double>       inverse_lumped;  ///< of the mass with its ties; 0 where not free
+    bool                      is_hard = false; ///< conjugate gradients failed in this step
 
     std::vector<Component>                     components;
     std::array<unsigned int, std::size_t(dim)> component_of_direction;
