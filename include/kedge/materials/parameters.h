@@ -31,6 +31,9 @@ namespace kedge
     double       young_modulus = 0; ///< [Pa]
     double       poisson_ratio = 0; ///< [-]
 
+    /** n_0, pores/volume at J = 1, of a skeleton that is or can be saturated [-] */
+    double initial_porosity = 0;
+
     // von_mises
     double yield_stress      = 0; ///< uniaxial, sigma_y = sqrt(3/2) rho_y [Pa]
     double hardening_modulus = 0; ///< H [Pa]
