@@ -16,13 +16,23 @@ namespace kedge
                         const double      increment,
                         PointUpdate<dim> &update)
     {
-      const double strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
-      return update_point<dim>(MeanDilatation<Material>(material, material.bulk_modulus * strain),
-                               state,
-                               history,
-                               A,
-                               update,
-                               (increment - relative_volume_strain<dim>(A)) / 3.);
+      if constexpr (Material::decoupled_volume)
+        {
+          const double strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
+          return update_point<dim>(MeanDilatation<Material>(material,
+                                                            material.bulk_modulus * strain),
+                                   state,
+                                   history,
+                                   A,
+                                   update,
+                                   (increment - relative_volume_strain<dim>(A)) / 3.);
+        }
+      else
+        {
+          AssertThrow(false,
+                      dealii::ExcMessage("This material cannot share its change of volume."));
+          return false;
+        }
     }
 
     /**
@@ -127,6 +137,7 @@ namespace kedge
     state.hardening_energy = update.hardening_energy;
     state.plastic_dissipation += update.dissipation;
     state.equivalent_plastic_strain = update.equivalent_plastic_strain;
+    state.plastic_volume_strain     = update.plastic_volume_strain;
 
     const auto stretch = stretch_diagonal<dim>(state.deformation_gradient);
     for (int d = 0; d < dim; ++d)

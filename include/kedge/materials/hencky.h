@@ -17,7 +17,11 @@ namespace kedge
   class Hencky
   {
   public:
-    static constexpr bool has_history = false;
+    static constexpr bool has_history          = false; ///< answers by its MaterialHistory
+    static constexpr bool yields               = false; ///< has plastic strains
+    static constexpr bool can_fail             = false; ///< its Response has a flag, valid
+    static constexpr bool decoupled_volume     = true; ///< mean stress K tr eps, whatever the shape
+    static constexpr bool stress_is_work_slope = true; ///< d(dPsi + dD)/d eps^tr = tau
 
     /** What the law answers to a principal trial strain. */
     struct Response
@@ -61,7 +65,7 @@ namespace kedge
 
     /** Free energy per reference volume [J/m^3]. */
     double
-    energy(const double (&strain)[3]) const
+    energy(const double (&strain)[3], const MaterialHistory & = {}) const
     {
       const double trace = strain[0] + strain[1] + strain[2];
       double       sum   = 0.;

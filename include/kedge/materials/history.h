@@ -4,13 +4,15 @@
 namespace kedge
 {
   /**
-   * What materials remember beside the elastic strain, as committed at the
+   * What a material answers by beside the elastic strain, as committed at the
    * end of the last step. A material whose has_history is false neither reads
    * nor changes it, and a scene of such materials does not store it per step.
    */
   struct MaterialHistory
   {
     double equivalent_plastic_strain = 0.; ///< alpha [-]
+    double plastic_volume_strain     = 0.; ///< eps_v^p, positive where the pores open [-]
+    double volume_strain             = 0.; ///< eps_v = ln det F, elastic and plastic [-]
   };
 } // namespace kedge
 

@@ -20,7 +20,11 @@ namespace kedge
   class VonMises
   {
   public:
-    static constexpr bool has_history = true;
+    static constexpr bool has_history          = true;
+    static constexpr bool yields               = true;
+    static constexpr bool can_fail             = false;
+    static constexpr bool decoupled_volume     = true;
+    static constexpr bool stress_is_work_slope = true;
 
     /** What the law answers to a principal trial strain. */
     struct Response
@@ -101,7 +105,7 @@ namespace kedge
 
     /** Elastic free energy Psi_1 of the elastic strain [J/m^3]. */
     double
-    energy(const double (&elastic_strain)[3]) const
+    energy(const double (&elastic_strain)[3], const MaterialHistory & = {}) const
     {
       return elastic.energy(elastic_strain);
     }

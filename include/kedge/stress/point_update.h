@@ -22,6 +22,7 @@ namespace kedge
     double hardening_energy;          ///< per V0 [J/m^3]
     double dissipation;               ///< of this step, per V0 [J/m^3]
     double equivalent_plastic_strain; ///< at the end of the step
+    double plastic_volume_strain;     ///< at the end of the step
   };
 
   /**
@@ -83,23 +84,25 @@ namespace kedge
         {
           strain[i]          = state.strain[i] + r.increment[i] + volume_change;
           plastic_stretch[i] = 1.;
-          if constexpr (Material::has_history)
+          if constexpr (Material::yields)
             {
               const double plastic = material.plastic_increment(r.response, i);
               strain[i] -= plastic;
               plastic_stretch[i] = std::exp(plastic);
             }
         }
-      update.strain_energy             = material.energy(strain);
+      MaterialHistory end;
+      if constexpr (Material::has_history)
+        end = material.updated(r.response, history);
+      update.strain_energy             = material.energy(strain, end);
       update.hardening_energy          = 0.;
       update.dissipation               = 0.;
-      update.equivalent_plastic_strain = 0.;
-      if constexpr (Material::has_history)
+      update.equivalent_plastic_strain = end.equivalent_plastic_strain;
+      update.plastic_volume_strain     = end.plastic_volume_strain;
+      if constexpr (Material::yields)
         {
-          const MaterialHistory end        = material.updated(r.response, history);
-          update.hardening_energy          = material.hardening_energy(end);
-          update.dissipation               = material.dissipation(r.response);
-          update.equivalent_plastic_strain = end.equivalent_plastic_strain;
+          update.hardening_energy = material.hardening_energy(end);
+          update.dissipation      = material.dissipation(r.response);
         }
     }
   } // namespace internal
@@ -112,8 +115,8 @@ namespace kedge
    *                      the point's volume strain differs from its group's
    *                      (MeanDilatation), else 0
    *
-   * @return false if det(I + A) or an elastic stretch is not positive; the
-   * update is unset then
+   * @return false if det(I + A) or an elastic stretch is not positive, or the
+   * material has no answer; the update is unset then
    */
   template <int dim, class Material>
   inline bool
@@ -151,7 +154,7 @@ namespace kedge
           update.kirchhoff_stress[s] +=
             tau[k] / r.lambda[k] * update.elastic_frame[i][k] * update.elastic_frame[j][k];
       }
-    if constexpr (Material::has_history)
+    if constexpr (Material::yields)
       for (auto &row : update.elastic_frame)
         for (int k = 0; k < dim; ++k)
           row[k] /= plastic_stretch[k];

@@ -42,7 +42,7 @@ namespace kedge
     double                      increment[3];       ///< increment of the principal Hencky strain
     typename Material::Response response;           ///< principal Kirchhoff stresses, work
     double                      stress[n_symmetric<dim>]; ///< S [Pa]
-    bool                        valid; ///< false where an eigenvalue is not positive
+    bool valid; ///< false where an eigenvalue is not positive or the material has no answer
   };
 
   /** E = A + A^T + A^T A in the order of symmetric_index(). */
@@ -117,6 +117,12 @@ namespace kedge
       }
 
     result.response = material.respond(state.strain, result.increment, history);
+    if constexpr (Material::can_fail)
+      if (!result.response.valid)
+        {
+          result.valid = false;
+          return result;
+        }
 
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < dim; ++k)
@@ -135,6 +141,31 @@ namespace kedge
         result.stress[s] = sum;
       }
     return result;
+  }
+
+  /**
+   * Twice the slope of the work by E, 2 d(dPsi + dD)/dE = sum_i w_i/lambda_i
+   * a_i (x) a_i with w = d(dPsi + dD)/d eps^tr, in the order of
+   * symmetric_index() [Pa]; S itself where w = tau.
+   */
+  template <int dim, class Material>
+  inline void
+  relative_work_slope(const Material                      &material,
+                      const RelativeStress<dim, Material> &r,
+                      double (&slope)[n_symmetric<dim>])
+  {
+    for (int s = 0; s < n_symmetric<dim>; ++s)
+      {
+        slope[s] = r.stress[s];
+        if constexpr (!Material::stress_is_work_slope)
+          {
+            const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
+            slope[s] = 0.;
+            for (int i = 0; i < dim; ++i)
+              slope[s] +=
+                material.work_slope(r.response, i) / r.lambda[i] * r.frame[k][i] * r.frame[l][i];
+          }
+      }
   }
 
   /**
