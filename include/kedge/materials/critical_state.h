@@ -49,6 +49,7 @@ namespace kedge
     static constexpr bool yields               = true;
     static constexpr bool can_fail             = true;
     static constexpr bool decoupled_volume     = false;
+    static constexpr bool takes_packs          = false;
     static constexpr bool stress_is_work_slope = false;
 
     /** What the law answers to a principal trial strain. */

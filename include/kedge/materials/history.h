@@ -1,6 +1,8 @@
 #ifndef kedge_materials_history_h
 #define kedge_materials_history_h
 
+#include <kedge/base/pack.h>
+
 namespace kedge
 {
   /**
@@ -8,12 +10,15 @@ namespace kedge
    * end of the last step. A material whose has_history is false neither reads
    * nor changes it, and a scene of such materials does not store it per step.
    */
-  struct MaterialHistory
+  template <typename Number>
+  struct MaterialHistoryOf
   {
-    double equivalent_plastic_strain = 0.; ///< alpha [-]
-    double plastic_volume_strain     = 0.; ///< eps_v^p, positive where the pores open [-]
-    double volume_strain             = 0.; ///< eps_v = ln det F, elastic and plastic [-]
+    Number equivalent_plastic_strain = 0.; ///< alpha [-]
+    Number plastic_volume_strain     = 0.; ///< eps_v^p, positive where the pores open [-]
+    Number volume_strain             = 0.; ///< eps_v = ln det F, elastic and plastic [-]
   };
+
+  using MaterialHistory = MaterialHistoryOf<double>;
 } // namespace kedge
 
 #endif

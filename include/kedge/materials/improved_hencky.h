@@ -40,6 +40,7 @@ namespace kedge
     static constexpr bool yields               = false;
     static constexpr bool can_fail             = true;
     static constexpr bool decoupled_volume     = false;
+    static constexpr bool takes_packs          = false;
     static constexpr bool stress_is_work_slope = true;
 
     /** What the law answers to a principal strain. */
