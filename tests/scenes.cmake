@@ -56,6 +56,15 @@ kedge_add_scene_test(path.turning_strain.half_step prm/paths/turning_strain.prm
   OPTIONS --drive SET "Constants/steps = 400")
 kedge_add_scene_test(path.2ranks prm/paths/simple_shear.prm OPTIONS --drive RANKS 2)
 
+# --- Element tests of soil, against integrations in other variables --------------
+kedge_add_scene_test(path.isotropic_compression prm/paths/isotropic_compression.prm)
+kedge_add_scene_test(path.oedometer prm/oedometer.prm)
+kedge_add_scene_test(path.triaxial prm/triaxial.prm)
+kedge_add_scene_test(path.triaxial.overconsolidated prm/triaxial.prm SET "Constants/p0 = 50e3")
+kedge_add_scene_test(path.triaxial_drained prm/paths/triaxial_drained.prm)
+kedge_add_scene_test(path.triaxial_drained.critical prm/paths/triaxial_drained.prm
+  SET "Constants/cell = 70e3")
+
 kedge_add_scene_test(scene.discs_plastic_a prm/discs_plastic_a.prm
   COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.discs_plastic_b prm/discs_plastic_b.prm
@@ -114,6 +123,10 @@ kedge_add_test(scene.transfer_audit LABELS scene
 kedge_add_scene_test(path.inverted prm/paths/simple_shear.prm OPTIONS --drive
   SET "Path/Deformation gradient = 1 - t, 0, 0; 0, 1, 0; 0, 0, 1"
   EXPECT_EXIT 2 EXPECT_STDOUT "stopped before t = 1 s: det F <= 0" EXPECT_STDERR "^$")
+# --- ... and so does one that would close the pores: ln 0.8 = -0.2231 -------------
+kedge_add_scene_test(path.pores_closed prm/paths/isotropic_compression.prm
+  SET "Path/Material = elastic" "Path/End = 500" "Path/Steps = 500"
+  EXPECT_EXIT 2 EXPECT_STDOUT "stopped before t = 447 s" EXPECT_STDERR "^$")
 
 # --- What a user may get wrong: refused with the cause, exit code 1 -----------
 function(kedge_add_refusal_test name message)
