@@ -19,7 +19,7 @@ namespace kedge
   };
 
   std::unique_ptr<LinearSolver::Backend>
-  make_banded_backend(const MatrixTraits &traits);
+  make_banded_backend();
 
   std::unique_ptr<LinearSolver::Backend>
   make_umfpack_backend();

@@ -26,6 +26,9 @@ namespace kedge
      */
     static constexpr double smallest_pivot = 1e-15;
 
+    /** Entries of the scaled matrix that differ by less are the same but for round-off. */
+    static constexpr double symmetry_tolerance = 1e-13;
+
     /** The gathered, scaled matrix; filled on rank 0 only. */
     struct Matrix
     {
@@ -34,6 +37,10 @@ namespace kedge
       std::vector<int>    column;
       std::vector<double> value;
     };
+
+    /** True if the matrix equals its transpose to within round-off. */
+    static bool
+    is_symmetric(const Matrix &matrix);
 
     virtual LinearStatus
     factorise_gathered(const Matrix &matrix, const bool new_pattern) = 0;

@@ -24,28 +24,30 @@ namespace kedge
     }
 
     /**
-     * Seconds that a band LU and UMFPACK take on one core of 2020's make;
-     * only their ratio matters. Fitted to measurements from 200 to 2e5
-     * unknowns.
+     * Seconds that each method takes on one core of 2020's make; only ratios
+     * matter. Fitted to measurements from 100 to 1e5 unknowns: matrices of
+     * bars, blocks and beds of clay, 36 to 290 entries per row.
      */
     double
     banded_time(const double n, const double width)
     {
-      return n * (4. * width * width / 1e10 + 2e-8 * width + 1e-7);
+      return n * (6e-11 * width * width + 1e-8 * width + 1e-7);
     }
 
     double
-    umfpack_time(const double n, const double entries_per_row, const int space_dimension)
+    umfpack_time(const double n, const double n_entries, const int space_dimension)
     {
+      const double per_row = n_entries / std::max(n, 1.);
       if (space_dimension == 2)
-        return 7e-6 * n * std::pow(std::max(n, 1e3) / 1e4, 0.3);
-      // a wider stencil than that of trilinear elements costs more
-      const double width = std::max(entries_per_row / 81., 1.);
-      return 1e-4 * n * std::pow(std::max(n, 1e2) / 1.5e4, 1.1) * width;
+        return 6e-6 * n * std::pow(std::max(n, 1e3) / 1e4, 0.2) * std::max(per_row / 48., 1.);
+      return 1e-4 * n * std::pow(std::max(n, 1e2) / 1.5e4, 1.1) * std::max(per_row / 81., 1.);
     }
 
-    /** Above these sizes iterative methods win. */
-    constexpr std::int64_t largest_direct_2d = 120000, largest_direct_3d = 9000;
+    double
+    krylov_time(const double n_entries, const bool multigrid)
+    {
+      return n_entries * (multigrid ? 8e-7 : 3e-7);
+    }
   } // namespace
 
 
@@ -78,20 +80,17 @@ namespace kedge
     LinearSolverKind kind = parameters.kind;
     if (kind == LinearSolverKind::automatic)
       {
-        const double n      = static_cast<double>(system.n_global);
-        const double banded = banded_time(n, static_cast<double>(bandwidth(system))) *
-                              (traits.positive_definite ? 0.3 : 1.);
-        double entries = static_cast<double>(system.column.size());
+        const double n       = static_cast<double>(system.n_global);
+        double       entries = static_cast<double>(system.column.size());
         MPI_Allreduce(MPI_IN_PLACE, &entries, 1, MPI_DOUBLE, MPI_SUM, system.communicator);
-        const bool large =
-          system.n_global > (traits.space_dimension == 2 ? largest_direct_2d : largest_direct_3d);
-        if (banded < umfpack_time(n, entries / std::max(n, 1.), traits.space_dimension))
-          kind = LinearSolverKind::banded;
-        else if (!large)
-          kind = LinearSolverKind::direct;
+        const bool   multigrid = !traits.dominated_by_inertia;
+        const double banded    = banded_time(n, static_cast<double>(bandwidth(system)));
+        const double direct    = umfpack_time(n, entries, traits.space_dimension);
+        const double krylov    = krylov_time(entries, multigrid);
+        if (krylov < std::min(banded, direct))
+          kind = multigrid ? LinearSolverKind::krylov_amg : LinearSolverKind::krylov_ilu;
         else
-          kind = traits.dominated_by_inertia ? LinearSolverKind::krylov_ilu
-                                             : LinearSolverKind::krylov_amg;
+          kind = banded < direct ? LinearSolverKind::banded : LinearSolverKind::direct;
       }
     if (backend && kind == chosen)
       return;
@@ -99,7 +98,7 @@ namespace kedge
     switch (kind)
       {
         case LinearSolverKind::banded:
-          backend = make_banded_backend(traits);
+          backend = make_banded_backend();
           break;
         case LinearSolverKind::krylov_ilu:
         case LinearSolverKind::krylov_amg:
