@@ -148,7 +148,10 @@ namespace kedge
 
 
   LinearStatus
-  GatheredBackend::solve(const std::vector<double> &b, std::vector<double> &x)
+  GatheredBackend::solve(const std::vector<double> &b,
+                         std::vector<double>       &x,
+                         const double,
+                         const unsigned int)
   {
     std::vector<double> all(rank == 0 ? matrix.n : 0);
     MPI_Gatherv(b.data(),

@@ -17,7 +17,10 @@ namespace kedge
     factorise(const SparseSystem &system, const bool new_pattern, const double shift) final;
 
     LinearStatus
-    solve(const std::vector<double> &b, std::vector<double> &x) final;
+    solve(const std::vector<double> &b,
+          std::vector<double>       &x,
+          const double               tolerance,
+          const unsigned int         max_iterations) final;
 
   protected:
     /**
