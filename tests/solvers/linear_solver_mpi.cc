@@ -269,6 +269,32 @@ TEST(SolversLinearMpi, SaysWhichEquationIsSingular)
     }
 }
 
+// One parameter serves a loose solution and an exact one; the residual says which
+TEST(SolversLinearMpi, KrylovMethodsStopWhereTold)
+{
+  const auto system = make_system([](const int i, const int j) {
+    return entry(i, j, 0.3);
+  });
+  for (const Kind kind : {Kind::krylov_ilu, Kind::krylov_amg})
+    {
+      SCOPED_TRACE(name(kind));
+      LinearSolver solver = make_solver(kind, false);
+      ASSERT_TRUE(solver.factorise(system).success);
+      std::vector<double> b, x;
+      for (unsigned int i = 0; i < system.n_rows(); ++i)
+        b.push_back(std::cos(1. * (system.first_row + i)) *
+                    random_scale(static_cast<int>(system.first_row) + i));
+      unsigned int before = 0;
+      for (const double tolerance : {0.1, 1e-4, 0.}) // of make_solver at last, 1e-12
+        {
+          const auto status = solver.solve(b, x, tolerance);
+          EXPECT_TRUE(status.success) << status.cause;
+          EXPECT_GT(status.iterations, before);
+          before = status.iterations;
+        }
+    }
+}
+
 TEST(SolversLinearMpi, KrylovMethodsOwnUpToFailure)
 {
   const auto             system = make_system([](const int i, const int j) {
