@@ -249,6 +249,19 @@ namespace kedge
       exchange<std::int64_t>(values, width, true, receive);
   }
 
+
+
+  template <int dim>
+  void
+  ActiveNodes<dim>::send_to_owners(
+    const std::vector<double>                               &values,
+    const unsigned int                                       width,
+    const std::function<void(unsigned int, const double *)> &receive) const
+  {
+    if (!neighbours.empty())
+      exchange<double>(values, width, true, receive);
+  }
+
   template class ActiveNodes<2>;
   template class ActiveNodes<3>;
 } // namespace kedge

@@ -70,6 +70,7 @@ namespace kedge
     warning_.clear();
     condition        = 0.;
     weakest_equation = -1;
+    linear_tolerance = 0.;
     diagonal.assign(equations.system().n_rows(), 0.);
     internal.resize(state.displacement.size());
     inertia.assign(state.displacement.size(), 0.);
@@ -275,7 +276,7 @@ namespace kedge
         largest_condition_ = std::max(largest_condition_, condition);
       }
     if (status.success)
-      status = linear_solver.solve(right_side, solution);
+      status = linear_solver.solve(right_side, solution, linear_tolerance);
     if (!status.success)
       return status;
     equations.scatter(solution, correction);

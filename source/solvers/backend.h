@@ -14,20 +14,22 @@ namespace kedge
     virtual LinearStatus
     factorise(const SparseSystem &system, const bool new_pattern, const double shift) = 0;
 
+    /** Direct methods have no use for a tolerance and a number of iterations. */
     virtual LinearStatus
-    solve(const std::vector<double> &b, std::vector<double> &x) = 0;
+    solve(const std::vector<double> &b,
+          std::vector<double>       &x,
+          const double               tolerance,
+          const unsigned int         max_iterations) = 0;
   };
 
   std::unique_ptr<LinearSolver::Backend>
-  make_banded_backend(const MatrixTraits &traits);
+  make_banded_backend();
 
   std::unique_ptr<LinearSolver::Backend>
   make_umfpack_backend();
 
   std::unique_ptr<LinearSolver::Backend>
-  make_krylov_backend(const LinearSolverParameters &parameters,
-                      const MatrixTraits           &traits,
-                      const bool                    multigrid);
+  make_krylov_backend(const MatrixTraits &traits, const bool multigrid);
 } // namespace kedge
 
 #endif

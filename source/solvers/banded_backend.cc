@@ -1,3 +1,4 @@
+#include "band_cholesky.h"
 #include "gathered_backend.h"
 
 extern "C"
@@ -23,32 +24,18 @@ extern "C"
           double       *b,
           const int    *ldb,
           int          *info);
-  void
-  dpbtrf_(const char *uplo, const int *n, const int *kd, double *ab, const int *ldab, int *info);
-  void
-  dpbtrs_(const char   *uplo,
-          const int    *n,
-          const int    *kd,
-          const int    *nrhs,
-          const double *ab,
-          const int    *ldab,
-          double       *b,
-          const int    *ldb,
-          int          *info);
 }
 
 namespace kedge
 {
   namespace
   {
-    /** Band LU with partial pivoting, or band Cholesky, from LAPACK. */
+    /**
+     * Band Cholesky for matrices that are symmetric and positive definite, else
+     * band LU with partial pivoting from LAPACK, which takes twice as long.
+     */
     class BandedBackend : public GatheredBackend
     {
-    public:
-      explicit BandedBackend(const bool cholesky)
-        : cholesky(cholesky)
-      {}
-
     protected:
       LinearStatus
       factorise_gathered(const Matrix &matrix, const bool new_pattern) override
@@ -61,55 +48,26 @@ namespace kedge
               for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
                 width = std::max(width, std::abs(i - matrix.column[k]));
           }
-        leading = cholesky ? width + 1 : 3 * width + 1;
-        band.assign(std::size_t(leading) * n, 0.);
-        const int top = cholesky ? width : 2 * width; // row of the diagonal
-        for (int i = 0; i < n; ++i)
-          for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
-            if (!cholesky || matrix.column[k] >= i) // the upper triangle suffices
-              band[std::size_t(matrix.column[k]) * leading + top + i - matrix.column[k]] =
-                matrix.value[k];
-        int info = 0;
-        if (cholesky)
-          dpbtrf_("U", &n, &width, band.data(), &leading, &info);
-        else
+        is_cholesky = is_symmetric(matrix);
+        if (is_cholesky)
           {
-            pivots.resize(n);
-            dgbtrf_(&n, &n, &width, &width, band.data(), &leading, pivots.data(), &info);
+            const LinearStatus status = factorise_cholesky(matrix);
+            if (status.success)
+              return status;
+            is_cholesky = false;
           }
-        if (info > 0)
-          return LinearStatus::failure(cholesky ? "matrix not positive definite"
-                                                : "singular matrix",
-                                       info - 1);
-        double       largest = 0., smallest = std::numeric_limits<double>::max();
-        LinearStatus status;
-        for (int i = 0; i < n; ++i)
-          {
-            const double diagonal = band[std::size_t(i) * leading + top];
-            const double pivot    = std::abs(cholesky ? diagonal * diagonal : diagonal);
-            largest               = std::max(largest, pivot);
-            if (pivot < smallest)
-              {
-                smallest                = pivot;
-                status.weakest_equation = i;
-              }
-          }
-        if (n > 0 && smallest < smallest_pivot)
-          return LinearStatus::failure("matrix singular to working precision",
-                                       status.weakest_equation);
-        status.condition_estimate = n > 0 ? largest / smallest : 1.;
-        return status;
+        return factorise_lu(matrix);
       }
 
       LinearStatus
       solve_gathered(std::vector<double> &x) override
       {
-        int       info = 0;
-        const int one  = 1;
+        int       info    = 0;
+        const int leading = 3 * width + 1, one = 1;
         if (n == 0)
           return {};
-        if (cholesky)
-          dpbtrs_("U", &n, &width, &one, band.data(), &leading, x.data(), &n, &info);
+        if (is_cholesky)
+          cholesky.solve(x.data());
         else
           dgbtrs_("N",
                   &n,
@@ -126,16 +84,75 @@ namespace kedge
       }
 
     private:
-      const bool          cholesky;
-      int                 n = 0, width = 0, leading = 0;
+      LinearStatus
+      factorise_cholesky(const Matrix &matrix)
+      {
+        cholesky.reinit(n, width);
+        for (int i = 0; i < n; ++i)
+          for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
+            if (matrix.column[k] <= i)
+              cholesky.entry(i, matrix.column[k]) = matrix.value[k];
+        const int failed = cholesky.factorise();
+        if (failed >= 0)
+          return LinearStatus::failure("matrix not positive definite", failed);
+        return judge_pivots([&](const int i) {
+          return cholesky.pivot(i);
+        });
+      }
+
+      LinearStatus
+      factorise_lu(const Matrix &matrix)
+      {
+        const int leading = 3 * width + 1, diagonal = 2 * width;
+        band.assign(std::size_t(leading) * n, 0.);
+        for (int i = 0; i < n; ++i)
+          for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
+            band[std::size_t(matrix.column[k]) * leading + diagonal + i - matrix.column[k]] =
+              matrix.value[k];
+        int info = 0;
+        pivots.resize(n);
+        dgbtrf_(&n, &n, &width, &width, band.data(), &leading, pivots.data(), &info);
+        if (info > 0)
+          return LinearStatus::failure("singular matrix", info - 1);
+        return judge_pivots([&](const int i) {
+          return band[std::size_t(i) * leading + diagonal];
+        });
+      }
+
+      template <typename Pivot>
+      LinearStatus
+      judge_pivots(const Pivot &pivot_of) const
+      {
+        double       largest = 0., smallest = std::numeric_limits<double>::max();
+        LinearStatus status;
+        for (int i = 0; i < n; ++i)
+          {
+            const double pivot = std::abs(pivot_of(i));
+            largest            = std::max(largest, pivot);
+            if (pivot < smallest)
+              {
+                smallest                = pivot;
+                status.weakest_equation = i;
+              }
+          }
+        if (n > 0 && smallest < smallest_pivot)
+          return LinearStatus::failure("matrix singular to working precision",
+                                       status.weakest_equation);
+        status.condition_estimate = n > 0 ? largest / smallest : 1.;
+        return status;
+      }
+
+      int                 n = 0, width = 0;
+      bool                is_cholesky = false;
+      BandCholesky        cholesky;
       std::vector<double> band;
       std::vector<int>    pivots;
     };
   } // namespace
 
   std::unique_ptr<LinearSolver::Backend>
-  make_banded_backend(const MatrixTraits &traits)
+  make_banded_backend()
   {
-    return std::make_unique<BandedBackend>(traits.positive_definite);
+    return std::make_unique<BandedBackend>();
   }
 } // namespace kedge

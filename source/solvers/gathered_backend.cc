@@ -118,8 +118,40 @@ namespace kedge
 
 
 
+  bool
+  GatheredBackend::is_symmetric(const Matrix &matrix)
+  {
+    // Rows ascend, and columns within rows, so that the entries right of the
+    // diagonal of row j are asked for one after the other.
+    std::vector<int> next(matrix.n);
+    for (int i = 0; i < matrix.n; ++i)
+      {
+        int k = matrix.row_start[i];
+        for (; k < matrix.row_start[i + 1] && matrix.column[k] < i; ++k)
+          {
+            const int transpose = next[matrix.column[k]]++;
+            if (transpose == matrix.row_start[matrix.column[k] + 1] ||
+                matrix.column[transpose] != i ||
+                !(std::abs(matrix.value[transpose] - matrix.value[k]) <= symmetry_tolerance))
+              return false;
+          }
+        while (k < matrix.row_start[i + 1] && matrix.column[k] == i)
+          ++k;
+        next[i] = k;
+      }
+    for (int i = 0; i < matrix.n; ++i)
+      if (next[i] != matrix.row_start[i + 1])
+        return false;
+    return true;
+  }
+
+
+
   LinearStatus
-  GatheredBackend::solve(const std::vector<double> &b, std::vector<double> &x)
+  GatheredBackend::solve(const std::vector<double> &b,
+                         std::vector<double>       &x,
+                         const double,
+                         const unsigned int)
   {
     std::vector<double> all(rank == 0 ? matrix.n : 0);
     MPI_Gatherv(b.data(),

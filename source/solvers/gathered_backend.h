@@ -17,7 +17,10 @@ namespace kedge
     factorise(const SparseSystem &system, const bool new_pattern, const double shift) final;
 
     LinearStatus
-    solve(const std::vector<double> &b, std::vector<double> &x) final;
+    solve(const std::vector<double> &b,
+          std::vector<double>       &x,
+          const double               tolerance,
+          const unsigned int         max_iterations) final;
 
   protected:
     /**
@@ -25,6 +28,9 @@ namespace kedge
      * zero: the solution would have no correct digit.
      */
     static constexpr double smallest_pivot = 1e-15;
+
+    /** Entries of the scaled matrix that differ by less are the same but for round-off. */
+    static constexpr double symmetry_tolerance = 1e-13;
 
     /** The gathered, scaled matrix; filled on rank 0 only. */
     struct Matrix
@@ -34,6 +40,10 @@ namespace kedge
       std::vector<int>    column;
       std::vector<double> value;
     };
+
+    /** True if the matrix equals its transpose to within round-off. */
+    static bool
+    is_symmetric(const Matrix &matrix);
 
     virtual LinearStatus
     factorise_gathered(const Matrix &matrix, const bool new_pattern) = 0;

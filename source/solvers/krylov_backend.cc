@@ -1,8 +1,8 @@
 #include "backend.h"
+#include "gmres.h"
+#include "incomplete_lu.h"
 
-#include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_solver.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -17,39 +17,88 @@ namespace kedge
   {
     using namespace dealii;
 
-    /** GMRES (CG if the matrix is positive definite) with ILU(0) or multigrid. */
+    /** Algebraic multigrid from ML. */
+    class Multigrid
+    {
+    public:
+      /** Copies the rows into an Epetra matrix and coarsens it; may throw. */
+      void
+      factorise(const DistributedMatrix &from, const bool positive_definite)
+      {
+        const SparseSystem &system       = from.values();
+        const auto         &scale        = from.scaling();
+        const MPI_Comm      communicator = system.communicator;
+        const int           n            = static_cast<int>(system.n_rows());
+        Epetra_MpiComm      epetra_communicator(communicator);
+        const Epetra_Map    map(static_cast<int>(system.n_global), n, 0, epetra_communicator);
+        std::vector<int>    lengths(n);
+        for (int i = 0; i < n; ++i)
+          lengths[i] = static_cast<int>(system.row_start[i + 1] - system.row_start[i]);
+        Epetra_CrsMatrix    epetra(Copy, map, lengths.data(), true);
+        std::vector<double> row;
+        for (int i = 0; i < n; ++i)
+          {
+            const std::int64_t begin = system.row_start[i];
+            row.assign(system.value.begin() + begin, system.value.begin() + begin + lengths[i]);
+            for (int k = 0; k < lengths[i]; ++k)
+              row[k] *= scale[i] * scale[from.columns()[begin + k]];
+            epetra.InsertGlobalValues(static_cast<int>(system.first_row) + i,
+                                      lengths[i],
+                                      row.data(),
+                                      system.column.data() + begin);
+          }
+        epetra.FillComplete();
+        preconditioner.clear();
+        matrix.reinit(epetra, true);
+        TrilinosWrappers::PreconditionAMG::AdditionalData data;
+        data.elliptic              = positive_definite;
+        data.aggregation_threshold = 0.02;
+        preconditioner.initialize(matrix, data);
+        source.reinit(matrix.locally_owned_range_indices(), communicator);
+        result.reinit(source);
+      }
+
+      void
+      multiply(const double *x, double *y)
+      {
+        const int n = source.trilinos_vector().MyLength();
+        std::copy(x, x + n, source.trilinos_vector()[0]);
+        preconditioner.vmult(result, source);
+        std::copy(result.trilinos_vector()[0], result.trilinos_vector()[0] + n, y);
+      }
+
+    private:
+      TrilinosWrappers::SparseMatrix    matrix;
+      TrilinosWrappers::PreconditionAMG preconditioner;
+      TrilinosWrappers::MPI::Vector     source, result;
+    };
+
+
+
+    /** GMRES with incomplete factors of each rank's block, or with multigrid. */
     class KrylovBackend : public LinearSolver::Backend
     {
     public:
-      KrylovBackend(const LinearSolverParameters &parameters,
-                    const MatrixTraits           &traits,
-                    const bool                    multigrid)
-        : parameters(parameters)
-        , traits(traits)
-        , multigrid(multigrid)
+      KrylovBackend(const MatrixTraits &traits, const bool with_multigrid)
+        : traits(traits)
+        , with_multigrid(with_multigrid)
       {}
 
       LinearStatus
-      factorise(const SparseSystem &system, const bool, const double) override
+      factorise(const SparseSystem &system, const bool new_pattern, const double) override
       {
-        build_matrix(system);
+        communicator = system.communicator;
+        if (new_pattern)
+          matrix.reinit(system);
+        matrix.set_values(system);
+        if (!with_multigrid)
+          {
+            incomplete_lu.factorise(matrix);
+            return {};
+          }
         try
           {
-            if (multigrid)
-              {
-                auto amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-                TrilinosWrappers::PreconditionAMG::AdditionalData data;
-                data.elliptic              = traits.positive_definite;
-                data.aggregation_threshold = 0.02;
-                amg->initialize(matrix, data);
-                preconditioner = std::move(amg);
-              }
-            else
-              {
-                auto ilu = std::make_unique<TrilinosWrappers::PreconditionILU>();
-                ilu->initialize(matrix);
-                preconditioner = std::move(ilu);
-              }
+            multigrid.factorise(matrix, traits.positive_definite);
           }
         catch (const std::exception &exception)
           {
@@ -59,96 +108,51 @@ namespace kedge
       }
 
       LinearStatus
-      solve(const std::vector<double> &b, std::vector<double> &x) override
+      solve(const std::vector<double> &b,
+            std::vector<double>       &x,
+            const double               tolerance,
+            const unsigned int         max_iterations) override
       {
-        const IndexSet                rows = matrix.locally_owned_range_indices();
-        TrilinosWrappers::MPI::Vector solution(rows, communicator), right_side(rows, communicator);
-        double                       *values = right_side.trilinos_vector()[0];
-        double                       *scale  = scaling->Values();
-        for (unsigned int i = 0; i < b.size(); ++i)
-          values[i] = b[i] * scale[i];
-
-        LinearStatus  status;
-        const double  norm = right_side.l2_norm();
-        SolverControl control(parameters.max_iterations, parameters.tolerance * norm);
-        try
-          {
-            if (norm > 0.)
-              {
-                if (traits.positive_definite)
-                  TrilinosWrappers::SolverCG(control).solve(matrix,
-                                                            solution,
-                                                            right_side,
-                                                            *preconditioner);
-                else
-                  TrilinosWrappers::SolverGMRES(control,
-                                                TrilinosWrappers::SolverGMRES::AdditionalData(false,
-                                                                                              60))
-                    .solve(matrix, solution, right_side, *preconditioner);
-              }
-          }
-        catch (const std::exception &)
-          {
-            status = LinearStatus::failure("the iterative solver did not reach its tolerance");
-          }
-        status.iterations =
-          control.last_step() == numbers::invalid_unsigned_int ? 0 : control.last_step();
-        x.resize(b.size());
-        values = solution.trilinos_vector()[0];
-        for (unsigned int i = 0; i < x.size(); ++i)
-          x[i] = values[i] * scale[i];
+        const std::vector<double> &scale = matrix.scaling();
+        std::vector<double>        scaled(b.size());
+        for (std::size_t i = 0; i < b.size(); ++i)
+          scaled[i] = scale[i] * b[i];
+        const auto multiply = [&](const double *from, double *to) {
+          matrix.multiply(from, to);
+        };
+        const auto precondition = [&](const double *from, double *to) {
+          if (with_multigrid)
+            {
+              multigrid.multiply(from, to);
+              return;
+            }
+          std::copy(from, from + matrix.n_rows(), to);
+          incomplete_lu.solve(to);
+        };
+        const GmresResult result =
+          solve_gmres(multiply, precondition, scaled, x, tolerance, max_iterations, communicator);
+        for (std::size_t i = 0; i < x.size(); ++i)
+          x[i] *= scale[i];
+        LinearStatus status;
+        if (!result.success)
+          status = LinearStatus::failure("the iterative solver did not reach its tolerance");
+        status.iterations = result.iterations;
         return status;
       }
 
     private:
-      /** Copies the rows, scaled from both sides, into an Epetra matrix. */
-      void
-      build_matrix(const SparseSystem &system)
-      {
-        communicator       = system.communicator;
-        const int        n = static_cast<int>(system.n_rows());
-        Epetra_MpiComm   epetra_communicator(communicator);
-        const Epetra_Map map(static_cast<int>(system.n_global), n, 0, epetra_communicator);
-        std::vector<int> lengths(n);
-        for (int i = 0; i < n; ++i)
-          lengths[i] = static_cast<int>(system.row_start[i + 1] - system.row_start[i]);
-        Epetra_CrsMatrix epetra(Copy, map, lengths.data(), true);
-        scaling = std::make_unique<Epetra_Vector>(map);
-        for (int i = 0; i < n; ++i)
-          {
-            const std::int64_t begin = system.row_start[i];
-            const int          row   = static_cast<int>(system.first_row) + i;
-            epetra.InsertGlobalValues(row,
-                                      lengths[i],
-                                      system.value.data() + begin,
-                                      system.column.data() + begin);
-            (*scaling)[i] = 1.;
-            for (std::int64_t k = begin; k < system.row_start[i + 1]; ++k)
-              if (system.column[k] == row && system.value[k] != 0.)
-                (*scaling)[i] = 1. / std::sqrt(std::abs(system.value[k]));
-          }
-        epetra.FillComplete();
-        epetra.LeftScale(*scaling);
-        epetra.RightScale(*scaling);
-        preconditioner.reset();
-        matrix.reinit(epetra, true);
-      }
-
-      const LinearSolverParameters                        parameters;
-      const MatrixTraits                                  traits;
-      const bool                                          multigrid;
-      MPI_Comm                                            communicator = MPI_COMM_SELF;
-      TrilinosWrappers::SparseMatrix                      matrix;
-      std::unique_ptr<Epetra_Vector>                      scaling;
-      std::unique_ptr<TrilinosWrappers::PreconditionBase> preconditioner;
+      const MatrixTraits traits;
+      const bool         with_multigrid;
+      MPI_Comm           communicator = MPI_COMM_SELF;
+      DistributedMatrix  matrix;
+      IncompleteLu       incomplete_lu;
+      Multigrid          multigrid;
     };
   } // namespace
 
   std::unique_ptr<LinearSolver::Backend>
-  make_krylov_backend(const LinearSolverParameters &parameters,
-                      const MatrixTraits           &traits,
-                      const bool                    multigrid)
+  make_krylov_backend(const MatrixTraits &traits, const bool multigrid)
   {
-    return std::make_unique<KrylovBackend>(parameters, traits, multigrid);
+    return std::make_unique<KrylovBackend>(traits, multigrid);
   }
 } // namespace kedge

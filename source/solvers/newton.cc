@@ -33,6 +33,9 @@ namespace kedge
     /** Corrections that are tried before the residual is asked to fall. */
     constexpr unsigned int free_corrections = 4;
 
+    /** Linear systems are solved to this relative residual at least. */
+    constexpr double loosest_linear_tolerance = 1e-3;
+
     constexpr double no_bound = std::numeric_limits<double>::infinity();
 
     /**
@@ -48,6 +51,28 @@ namespace kedge
              norms[norms.size() - 1] > 0.5 * norms[norms.size() - 3];
     }
 
+    /** Relative residual that leaves a linear system no larger than needed for polished books. */
+    double
+    tolerance_of_polish(const NewtonProblem::Evaluation &evaluation)
+    {
+      return evaluation.residual_norm > 0.
+               ? std::min(0.1 * polished * evaluation.scale / evaluation.residual_norm,
+                          loosest_linear_tolerance)
+               : loosest_linear_tolerance;
+    }
+
+    /** Relative residual at which a quadratic iteration goes on as fast as with exact solutions. */
+    double
+    tolerance_of_correction(const NewtonReport &report, const NewtonProblem::Evaluation &evaluation)
+    {
+      const auto &norms = report.residual_norms;
+      if (norms.size() < 2)
+        return loosest_linear_tolerance;
+      const double ratio = norms[norms.size() - 1] / norms[norms.size() - 2];
+      return std::max(std::min(0.1 * ratio * ratio, loosest_linear_tolerance),
+                      tolerance_of_polish(evaluation));
+    }
+
     /**
      * One correction with the last tangent, taken back if it does not help.
      *
@@ -56,7 +81,8 @@ namespace kedge
     bool
     polish(NewtonProblem &problem, NewtonProblem::Evaluation &evaluation, NewtonReport &report)
     {
-      double             norm   = 0.;
+      double norm = 0.;
+      problem.set_linear_tolerance(tolerance_of_polish(evaluation));
       const LinearStatus linear = problem.solve_correction(norm, true);
       report.linear_iterations += linear.iterations;
       if (!linear.success || !std::isfinite(norm))
@@ -141,9 +167,10 @@ namespace kedge
     unsigned int n_added = 0;
     while (report.iterations < parameters.max_iterations)
       {
-        report.converged                   = false; // an added iteration has to hold as well
-        double             correction_norm = 0.;
-        const LinearStatus linear          = problem.solve_correction(correction_norm, false);
+        report.converged       = false; // an added iteration has to hold as well
+        double correction_norm = 0.;
+        problem.set_linear_tolerance(tolerance_of_correction(report, evaluation));
+        const LinearStatus linear = problem.solve_correction(correction_norm, false);
         ++report.iterations;
         report.linear_iterations += linear.iterations;
         if (!linear.success || !std::isfinite(correction_norm))

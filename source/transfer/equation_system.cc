@@ -365,21 +365,20 @@ namespace kedge
   void
   EquationSystem<dim>::fill(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &matrix)
   {
-    const std::vector<double> *values = &matrix.values();
-    std::vector<double>        summed;
-    if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
-      {
-        summed = matrix.values();
-        nodes.add_to_owners(summed, matrix.row_size());
-        values = &summed;
-      }
-    const std::size_t width = std::size_t(matrix.n_slots()) * n_components;
+    const std::size_t width   = std::size_t(matrix.n_slots()) * n_components;
+    const auto        add_row = [&](const std::int64_t e, const double *row) {
+      for (std::int64_t k = system_.row_start[e]; k < system_.row_start[e + 1]; ++k)
+        system_.value[k] += entry_source[k] == none ? 0. : row[entry_source[k]];
+    };
+    std::fill(system_.value.begin(), system_.value.end(), 0.);
     for (unsigned int e = 0; e < nodal_of_equation.size(); ++e)
-      {
-        const double *row = values->data() + nodal_of_equation[e] * width;
-        for (std::int64_t k = system_.row_start[e]; k < system_.row_start[e + 1]; ++k)
-          system_.value[k] = entry_source[k] == none ? 0. : row[entry_source[k]];
-      }
+      add_row(e, matrix.values().data() + nodal_of_equation[e] * width);
+    const auto add_share = [&](const unsigned int node, const double *share) {
+      for (unsigned int p = 0; p < n_components; ++p)
+        if (number[node * n_components + p] >= 0)
+          add_row(number[node * n_components + p] - system_.first_row, share + p * width);
+    };
+    nodes.send_to_owners(matrix.values(), matrix.row_size(), add_share);
     tied_rows.multiply(matrix);
     std::fill(remote_values.begin(), remote_values.end(), 0.);
     for (const FedNode &fed : fed_nodes)

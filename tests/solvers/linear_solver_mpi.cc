@@ -156,6 +156,51 @@ TEST(SolversLinearMpi, UnsymmetricSystemsAndNewValues)
     }
 }
 
+// Cholesky in blocks of 16, 32 and 64, the last of them smaller; a symmetric
+// matrix that is not positive definite and one that is not symmetric by 1e-6
+TEST(SolversLinearMpi, BandsOfAllWidths)
+{
+  for (const int bandwidth : {1, 20, 60, 330})
+    for (const int variant : {0, 1, 2})
+      {
+        SCOPED_TRACE("width " + std::to_string(bandwidth) + " variant " + std::to_string(variant));
+        const int    n_rows = 2 * bandwidth + 35;
+        SparseSystem system;
+        system.communicator = MPI_COMM_WORLD;
+        system.n_global     = n_rows;
+        if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+          for (int i = 0; i < n_rows; ++i)
+            {
+              for (int j = std::max(0, i - bandwidth); j <= std::min(n_rows - 1, i + bandwidth);
+                   ++j)
+                {
+                  // a dominant diagonal, of which variant 1 turns a third
+                  const double sign = variant == 1 && i % 3 == 0 ? -1. : 1.;
+                  double value      = i == j ? sign * (1.1 + bandwidth) : std::cos(3. * i + 3. * j);
+                  if (variant == 2 && i == j + 1)
+                    value += 1e-6;
+                  system.column.push_back(j);
+                  system.value.push_back(value);
+                }
+              system.row_start.push_back(system.column.size());
+            }
+        LinearSolver solver = make_solver(Kind::banded, false);
+        const auto   status = solver.factorise(system);
+        ASSERT_TRUE(status.success) << status.cause;
+        EXPECT_GE(status.condition_estimate, 1.);
+        std::vector<double> b, x;
+        for (unsigned int i = 0; i < system.n_rows(); ++i)
+          {
+            b.push_back(0.);
+            for (std::int64_t k = system.row_start[i]; k < system.row_start[i + 1]; ++k)
+              b[i] += system.value[k] * std::sin(1. + system.column[k]);
+          }
+        ASSERT_TRUE(solver.solve(b, x).success);
+        for (unsigned int i = 0; i < x.size(); ++i)
+          EXPECT_NEAR(x[i], std::sin(1. + i), 1e-12); // conditions below 100
+      }
+}
+
 TEST(SolversLinearMpi, NamesTheMethodInUse)
 {
   const auto                     system = make_system([](const int i, const int j) {
@@ -221,6 +266,32 @@ TEST(SolversLinearMpi, SaysWhichEquationIsSingular)
                        return in_i ? v[i] * v[j] : (i == j ? 1. : 0.);
                      }))
                      .success);
+    }
+}
+
+// One parameter serves a loose solution and an exact one; the residual says which
+TEST(SolversLinearMpi, KrylovMethodsStopWhereTold)
+{
+  const auto system = make_system([](const int i, const int j) {
+    return entry(i, j, 0.3);
+  });
+  for (const Kind kind : {Kind::krylov_ilu, Kind::krylov_amg})
+    {
+      SCOPED_TRACE(name(kind));
+      LinearSolver solver = make_solver(kind, false);
+      ASSERT_TRUE(solver.factorise(system).success);
+      std::vector<double> b, x;
+      for (unsigned int i = 0; i < system.n_rows(); ++i)
+        b.push_back(std::cos(1. * (system.first_row + i)) *
+                    random_scale(static_cast<int>(system.first_row) + i));
+      unsigned int before = 0;
+      for (const double tolerance : {0.1, 1e-4, 0.}) // of make_solver at last, 1e-12
+        {
+          const auto status = solver.solve(b, x, tolerance);
+          EXPECT_TRUE(status.success) << status.cause;
+          EXPECT_GT(status.iterations, before);
+          before = status.iterations;
+        }
     }
 }
 

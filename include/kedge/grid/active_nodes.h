@@ -77,6 +77,12 @@ namespace kedge
                    const unsigned int                                             width,
                    const std::function<void(unsigned int, const std::int64_t *)> &receive) const;
 
+    /** The same for doubles. */
+    void
+    send_to_owners(const std::vector<double>                               &values,
+                   const unsigned int                                       width,
+                   const std::function<void(unsigned int, const double *)> &receive) const;
+
     MPI_Comm
     communicator() const
     {

@@ -69,6 +69,12 @@ namespace kedge
     Evaluation
     evaluate() override;
 
+    void
+    set_linear_tolerance(const double tolerance) override
+    {
+      linear_tolerance = tolerance;
+    }
+
     LinearStatus
     solve_correction(double &norm, const bool keep_tangent) override;
 
@@ -155,6 +161,7 @@ namespace kedge
     std::vector<NodalStatus> status;
     std::vector<double>      internal, inertia, acceleration, residual, correction;
     std::vector<double>      diagonal; ///< of the last tangent, at the equations
+    double                   linear_tolerance = 0.;
     SolidTimings             timings_;
     std::string              warning_;                ///< of a singular tangent in this step
     double                   condition          = 0.; ///< worst of this step

@@ -43,11 +43,13 @@ namespace kedge
   };
 
   /**
-   * Solves sparse systems, choosing the method by size, bandwidth and
-   * dimension: LAPACK's band LU for narrow matrices, UMFPACK for other small
-   * ones, GMRES or CG with ILU(0) or algebraic multigrid (ML) for large ones.
-   * Rows and columns are scaled by 1/sqrt|diagonal| first, so that nodes of
-   * little mass do no harm. Direct methods gather the system on rank 0.
+   * Solves sparse systems, choosing the method by what it is expected to cost:
+   * band Cholesky or band LU for narrow matrices, UMFPACK for others, GMRES
+   * with ILU(0) or algebraic multigrid (ML) for large ones, whose every part
+   * but the last works on all ranks. Rows and columns are scaled by
+   * 1/sqrt|diagonal| first, so that nodes of little mass do no harm. Direct
+   * methods gather the system on rank 0. Chosen by `automatic`, an iterative
+   * method that costs more than a direct one leaves the system to that.
    */
   class LinearSolver
   {
@@ -63,7 +65,8 @@ namespace kedge
     pattern_changed();
 
     /**
-     * Prepares the solution with the values of @p system (collective).
+     * Prepares the solution with the values of @p system (collective), which
+     * must last until the last solve() with them.
      *
      * @param shift is added to the diagonal of the scaled matrix (whose
      *              diagonal is 1 otherwise) by direct methods: it makes a
@@ -73,9 +76,14 @@ namespace kedge
     LinearStatus
     factorise(const SparseSystem &system, const double shift = 0.);
 
-    /** Solves A x = b for this rank's rows (collective). */
+    /**
+     * Solves A x = b for this rank's rows (collective).
+     *
+     * @param tolerance relative residual that suffices; iterative methods stop
+     *                  at it, or at that of the parameters if that is larger
+     */
     LinearStatus
-    solve(const std::vector<double> &b, std::vector<double> &x);
+    solve(const std::vector<double> &b, std::vector<double> &x, const double tolerance = 0.);
 
     /** The method in use, for the log. */
     std::string
@@ -90,8 +98,16 @@ namespace kedge
     bool                     new_pattern = true;
     std::unique_ptr<Backend> backend;
 
-    void
-    choose(const SparseSystem &system);
+    const SparseSystem      *system         = nullptr; ///< of the last factorise()
+    double                   shift          = 0.;
+    unsigned int             max_iterations = 0;
+    LinearSolverKind         substitute     = LinearSolverKind::automatic; ///< direct, if any
+    std::unique_ptr<Backend> direct; ///< of the substitute, for this matrix only
+
+    LinearSolverKind
+    cheapest(const SparseSystem &system);
+    std::unique_ptr<Backend>
+    make_backend(const LinearSolverKind kind) const;
   };
 } // namespace kedge
 

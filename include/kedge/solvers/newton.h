@@ -40,6 +40,14 @@ namespace kedge
     evaluate() = 0;
 
     /**
+     * Says which relative residual of its linear system suffices for the next
+     * corrections. Direct solvers need not know.
+     */
+    virtual void
+    set_linear_tolerance(const double /*tolerance*/)
+    {}
+
+    /**
      * Solves for the correction at the present u and gives its 2-norm.
      *
      * @param keep_tangent use the tangent of the last call (and its factors)
@@ -63,8 +71,10 @@ namespace kedge
    * factorisation, and what is left of the residual is what conservation of
    * energy and momenta lacks. If it is still more than 1e-12 of the residual's
    * terms, up to three iterations are added; the criterion must hold at the last
-   * one too. From the fifth correction on, one that stagnates is halved until the
-   * residual falls.
+   * one too. Iterative linear solvers may leave a relative residual of 1e-3 in the
+   * first iteration and then of a tenth of (|r_k|/|r_k-1|)^2, which keeps the
+   * order (Eisenstat and Walker 1996). From the fifth correction on, one that
+   * stagnates is halved until the residual falls.
    */
   NewtonReport
   solve_newton(NewtonProblem &problem, const NewtonParameters &parameters);
