@@ -24,6 +24,7 @@ namespace kedge
                                                     user_constants(),
                                                     grid(),
                                                     materials(),
+                                                    declare_pore_fluid<dim>(allow),
                                                     bodies(),
                                                     node_conditions(),
                                                     body_force(),
@@ -183,6 +184,10 @@ namespace kedge
             per_direction("0", "; "),
             allow.expressions(coordinates("xyz"), coordinate_words("xyz")),
             "Velocity at the start [m/s]; x, y, z is the place at the start."},
+           {"Initial pore pressure",
+            "0",
+            allow.expression(coordinates("xyz"), coordinate_words("xyz")),
+            "Of a saturated body at the start [Pa]; x, y, z is the place at the start."},
            {"Body force", "true", allow.truth(), "Whether the section Body force acts on it."}}};
       }
 
@@ -203,6 +208,13 @@ namespace kedge
            "false",
            allow.truth(),
            "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."});
+        std::vector<std::string> variables = coordinates("xyz");
+        variables.emplace_back("t");
+        section.entries.push_back(
+          {"Pore pressure",
+           "",
+           allow.expression(variables, coordinate_words("xyz") + ", t").or_empty(),
+           "Of a saturated body there [Pa]; empty: whatever comes, no flow through the surface."});
         for (const std::string &coordinate : coordinates("xyz"))
           section.entries.push_back({"Component " + coordinate,
                                      "free",
@@ -356,7 +368,11 @@ namespace kedge
                         "body",
                         "id",
                         "equivalent_plastic_strain",
-                        "plastic_dissipation"})
+                        "plastic_dissipation",
+                        "pore_pressure",
+                        "porosity",
+                        "darcy_velocity",
+                        "total_stress"})
               .or_empty(),
             "What the pictures hold."},
            {"Formats",

@@ -2,6 +2,7 @@
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
 #include <kedge/scene/read_materials.h>
+#include <kedge/scene/read_pore_fluid.h>
 #include <kedge/scene/read_scene.h>
 #include <kedge/scene/values.h>
 
@@ -119,8 +120,9 @@ namespace kedge
         body.material        = find_name(reader, section, "Material", "Materials");
         body.points_per_cell = counts<dim>(section, "Points per cell");
         body.basis = section.text("Basis") == "gimp" ? BasisKind::gimp : BasisKind::linear;
-        body.initial_velocity = components<dim>(section, "Initial velocity");
-        body.body_force       = section.truth("Body force");
+        body.initial_velocity      = components<dim>(section, "Initial velocity");
+        body.body_force            = section.truth("Body force");
+        body.initial_pore_pressure = section.text("Initial pore pressure");
         check_inside_grid(section, *body.geometry, grid);
         bodies.push_back(body);
       });
@@ -146,8 +148,9 @@ namespace kedge
           condition.side = parse_side<dim>(section.text("Side"));
         else
           condition.where = section.text("Where");
-        condition.reaction = section.truth("Reaction");
-        bool acts          = false;
+        condition.reaction      = section.truth("Reaction");
+        condition.pore_pressure = section.text("Pore pressure");
+        bool acts               = !condition.pore_pressure.empty();
         for (unsigned int d = 0; d < dim; ++d)
           {
             condition.components[d] =
@@ -158,7 +161,7 @@ namespace kedge
         if (!acts)
           throw section.error("Component x",
                               "All components are free, so the condition does nothing; fix or "
-                              "move one or leave the condition out.");
+                              "move one, give a Pore pressure, or leave the condition out.");
         conditions.push_back(condition);
       });
       return conditions;
@@ -413,7 +416,10 @@ namespace kedge
     scene.output          = read_output(reader, scene.time);
     scene.probes          = read_probes<dim>(reader);
     scene.checks          = read_checks(reader, scene.time);
-    scene.parameters      = reader.print();
+    scene.pore_fluid      = read_pore_fluid<dim>(reader, scene);
+    if (scene.pore_fluid)
+      scene.time.pore_theta = SectionReader(reader, {"Pore fluid"}).number("Theta");
+    scene.parameters = reader.print();
     return scene;
   }
 

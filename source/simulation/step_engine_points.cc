@@ -19,6 +19,8 @@ namespace kedge
         generated.insert(generated.end(), of_body.begin(), of_body.end());
       }
     check_overlaps();
+    if (has_pores())
+      saturate_points();
     loads.attach(generated, body_names);
 
     std::vector<PointRecord<dim>> records;
@@ -215,7 +217,9 @@ namespace kedge
       }
     step_work = dealii::Utilities::MPI::sum(work, communicator);
     if (conditions.any_moving())
-      step_work += problem.reaction_work();
+      step_work += balance->reaction_work();
+    if (porous != nullptr)
+      add_pore_work();
     if (has_ghosts())
       ghost_work = work_against_ghosts();
     if (std::any_of(scene.node_conditions.begin(),
@@ -223,7 +227,7 @@ namespace kedge
                     [](const auto &condition) {
                       return condition.reaction;
                     }))
-      reactions = problem.reactions();
+      reactions = balance->reactions();
 
     if (scheme.dynamic)
       map_velocities_back();
@@ -233,6 +237,8 @@ namespace kedge
         location += point_displacements[slot];
         state.displacement += point_displacements[slot];
         apply_point_update(updates[slot], state);
+        if (porous != nullptr)
+          apply_pore_update(pore_updates[slot], state);
         if (scheme.dynamic)
           update_velocities(slot, state);
       });
@@ -275,22 +281,37 @@ namespace kedge
 
   template <int dim>
   void
+  StepEngine<dim>::initialise_points(const double t)
+  {
+    if (porous != nullptr)
+      initialise_fluctuations();
+    if (scheme.carries_acceleration)
+      initialise_accelerations(t);
+  }
+
+
+
+  template <int dim>
+  void
   StepEngine<dim>::initialise_accelerations(const double t)
   {
-    if (!scheme.carries_acceleration)
-      return;
     activate();
     apply_external_forces(t);
-    const std::size_t         size = std::size_t(nodes.n_local()) * dim;
-    std::vector<double>       internal(size, 0.), at_nodes(size, 0.);
-    const std::vector<double> at_rest(size, 0.);
-    InternalForce<dim>(material_of_body, StressRule::at_configuration, 1.)
-      .add_force(step_points, background.window(), nodes, at_rest, internal);
-    ties.restrict_sums(internal);
-    nodes.add_to_owners(internal, dim);
-    std::vector<double> force(size);
-    for (std::size_t i = 0; i < size; ++i)
-      force[i] = nodal.external_force[i] - internal[i];
+    const std::size_t   size = std::size_t(nodes.n_local()) * dim;
+    std::vector<double> at_nodes(size, 0.), force(size, 0.);
+    if (porous != nullptr)
+      force = porous->unbalanced_force(nodal.external_force, t);
+    else
+      {
+        const std::vector<double> at_rest(size, 0.);
+        std::vector<double>       internal(size, 0.);
+        InternalForce<dim>(material_of_body, StressRule::at_configuration, 1.)
+          .add_force(step_points, background.window(), nodes, at_rest, internal);
+        ties.restrict_sums(internal);
+        nodes.add_to_owners(internal, dim);
+        for (std::size_t i = 0; i < size; ++i)
+          force[i] = nodal.external_force[i] - internal[i];
+      }
     const LinearStatus status =
       mapping.solve(background, nodes, ties, mapping_mass(), force, at_nodes);
     AssertThrow(status.success, dealii::ExcMessage("mass matrix: " + status.cause));
@@ -377,7 +398,9 @@ namespace kedge
     row.min_det_F      = dealii::Utilities::MPI::min(min_det, communicator);
     row.n_points       = cloud.n_global();
     row.n_active_cells = dealii::Utilities::MPI::sum(step_points.n_cells, communicator);
-    row.n_dofs         = problem.n_equations();
+    row.n_dofs         = balance->n_equations();
+    if (porous != nullptr)
+      write_pore_books(row);
   }
 
   template class StepEngine<2>;

@@ -151,6 +151,18 @@ namespace kedge
 
 
   template <int dim>
+  std::array<double, std::size_t(dim)>
+  ExternalLoads<dim>::body_acceleration(const double t) const
+  {
+    std::array<double, std::size_t(dim)> result;
+    for (int d = 0; d < dim; ++d)
+      result[d] = body_force[d]({t});
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   ExternalLoads<dim>::force(const StepPoints<dim>               &points,
                             const double                         t,

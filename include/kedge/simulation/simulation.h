@@ -45,6 +45,8 @@ namespace kedge
     {
       double        external_work      = 0.;
       double        ghost_work         = 0.;
+      double        fluid_inflow       = 0.; ///< [kg]
+      double        darcy_dissipation  = 0.; ///< [J]
       double        initial_energy     = 0.;
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
       double        points_times_steps = 0.;
