@@ -1,4 +1,4 @@
-#include "porous_kernels.h"
+#include "surface_kernels.h"
 
 namespace kedge
 {
@@ -67,6 +67,7 @@ namespace kedge
                                  const ActiveNodes<dim>   &nodes,
                                  const PorousTrial<dim>   &trial,
                                  std::vector<double>      &residual,
+                                 std::vector<double>      &outflow,
                                  PorousSize               &size) const
   {
     PointStatus status;
@@ -84,6 +85,13 @@ namespace kedge
                   dispatch_pattern<dim>(
                     batch.batch.pattern,
                     internal::PorousResidualKernel<dim, M>{batch, residual, size, status});
+                  if (status.ok())
+                    internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
+                      dispatch_pattern<dim>(batch.batch.pattern,
+                                            internal::SurfaceResidualKernel<dim, M>{{batch, face},
+                                                                                    residual,
+                                                                                    outflow});
+                    });
                   return status.ok();
                 });
     return status;
@@ -113,6 +121,11 @@ namespace kedge
                   using M = std::decay_t<decltype(batch.material)>;
                   dispatch_pattern<dim>(batch.batch.pattern,
                                         internal::PorousTangentKernel<dim, M>{batch, tangent});
+                  internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
+                    dispatch_pattern<dim>(batch.batch.pattern,
+                                          internal::SurfaceTangentKernel<dim, M>{{batch, face},
+                                                                                 tangent});
+                  });
                   return true;
                 });
   }

@@ -28,12 +28,16 @@ namespace kedge
   template <int dim>
   PorousProblem<dim>::PorousProblem(const PorousForce<dim>         &force,
                                     const ExternalLoads<dim>       &loads,
+                                    const SurfacePressures<dim>    &surfaces,
+                                    const double                    surface_penalty,
                                     const Scheme                   &scheme,
                                     const LinearSolverParameters   &parameters,
                                     const double                    p_wave_modulus,
                                     const std::vector<std::string> &body_names)
     : porous_force(force)
     , loads(loads)
+    , surfaces(surfaces)
+    , surface_penalty(surface_penalty)
     , scheme(scheme)
     , modulus(p_wave_modulus)
     , body_names(body_names)
@@ -101,6 +105,7 @@ namespace kedge
     weakest_equation = -1;
     unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
     residual.resize(unknowns.size());
+    outflow.resize(surfaces.pressures(t_n).size());
     acceleration.resize(scheme.dynamic ? std::size_t(nodes->n_local()) * dim : 0);
     guess_pressure();
     set_prescribed();
@@ -165,14 +170,34 @@ namespace kedge
 
   template <int dim>
   PorousTrial<dim>
-  PorousProblem<dim>::trial() const
+  PorousProblem<dim>::trial_at(const std::vector<double> &accelerations,
+                               const double               inertia,
+                               const double               step,
+                               const double               t_load,
+                               const double               t_pressure) const
   {
     return {unknowns,
-            acceleration,
-            scheme.dynamic ? scheme.inertia_coefficient(dt) : 0.,
-            dt,
+            accelerations,
+            inertia,
+            step,
             cell_size,
-            loads.body_acceleration(scheme.load_time(t_n, dt))};
+            loads.body_acceleration(t_load),
+            surfaces.points(),
+            surfaces.pressures(t_pressure),
+            surface_penalty};
+  }
+
+
+
+  template <int dim>
+  PorousTrial<dim>
+  PorousProblem<dim>::trial() const
+  {
+    return trial_at(acceleration,
+                    scheme.dynamic ? scheme.inertia_coefficient(dt) : 0.,
+                    dt,
+                    scheme.load_time(t_n, dt),
+                    t_n + porous_force.scheme().theta * dt);
   }
 
 
@@ -198,9 +223,11 @@ namespace kedge
                                                         state->acceleration_n[k],
                                                         dt);
     std::fill(residual.begin(), residual.end(), 0.);
+    std::fill(outflow.begin(), outflow.end(), 0.);
     PorousSize        size;
     const PointStatus answer =
-      porous_force.add_residual(*points, pores, grid->window(), *nodes, trial(), residual, size);
+      porous_force
+        .add_residual(*points, pores, grid->window(), *nodes, trial(), residual, outflow, size);
     ties->restrict_sums(residual, dim + 1);
     nodes->add_to_owners(residual, dim + 1);
     double external = 0.;
@@ -346,16 +373,21 @@ namespace kedge
   {
     const PoreFluid &fluid  = porous_force.soils().front().fluid;
     double           sum[2] = {0., 0.};
+    const auto       add    = [&](const double mass, const double pressure) {
+      sum[0] += mass;
+      // mu = K_f/rho_0 (1 - rho_0/rho_f), (4.112)
+      sum[1] -= mass * fluid.bulk_modulus / fluid.reference_density *
+                std::expm1(-pressure / fluid.bulk_modulus);
+    };
     for (unsigned int i = 0; i < nodes->n_owned(); ++i)
       if (conditions->pressure_prescribed(i))
         {
-          const std::size_t k    = std::size_t(i) * (dim + 1) + dim;
-          const double      mass = fluid.reference_density * residual[k];
-          sum[0] += mass;
-          // mu = K_f/rho_0 (1 - rho_0/rho_f), (4.112)
-          sum[1] -= mass * fluid.bulk_modulus / fluid.reference_density *
-                    std::expm1(-unknowns[k] / fluid.bulk_modulus);
+          const std::size_t k = std::size_t(i) * (dim + 1) + dim;
+          add(fluid.reference_density * residual[k], unknowns[k]);
         }
+    const auto pressures = surfaces.pressures(t_n + porous_force.scheme().theta * dt);
+    for (unsigned int s = 0; s < outflow.size(); ++s)
+      add(-fluid.reference_density * outflow[s], pressures[s]);
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, nodes->communicator());
     return {sum[0], sum[1]};
   }
@@ -369,14 +401,16 @@ namespace kedge
     unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
     residual.assign(unknowns.size(), 0.);
     guess_pressure();
+    outflow.assign(surfaces.pressures(t).size(), 0.);
     const std::vector<double> at_rest;
     PorousSize                size;
     porous_force.add_residual(*points,
                               pores,
                               grid->window(),
                               *nodes,
-                              {unknowns, at_rest, 0., 1., cell_size, loads.body_acceleration(t)},
+                              trial_at(at_rest, 0., 1., t, t),
                               residual,
+                              outflow,
                               size);
     ties->restrict_sums(residual, dim + 1);
     nodes->add_to_owners(residual, dim + 1);

@@ -30,6 +30,7 @@ namespace kedge
                                                     body_force(),
                                                     point_loads(),
                                                     tractions(),
+                                                    surface_pressures(),
                                                     time()};
         for (SectionDeclaration &section : declare_numerics<dim>(allow))
           sections.push_back(std::move(section));
@@ -270,6 +271,25 @@ namespace kedge
                   required,
                   allow.expressions({"t"}, "t"),
                   "Force per area of the undeformed face [Pa]."}}};
+      }
+
+      SectionDeclaration
+      surface_pressures() const
+      {
+        return {"Surface pressures",
+                "Pore pressures on the outer faces of a saturated body that look to one side; they "
+                "move with the body, and press on it as water does.",
+                SectionKind::named,
+                {{"Body",
+                  required,
+                  allow.text("the name of a section of Bodies"),
+                  "The body whose faces they are."},
+                 {"Side", required, allow.side(), "The side to which the faces look at the start."},
+                 {"Where",
+                  "",
+                  allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
+                  "Only faces where this is true at the start; empty: all; 0: none."},
+                 {"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."}}};
       }
 
       SectionDeclaration

@@ -1,4 +1,6 @@
+#include <kedge/scene/cross_checks.h>
 #include <kedge/scene/read_pore_fluid.h>
+#include <kedge/scene/values.h>
 
 namespace kedge
 {
@@ -13,6 +15,9 @@ namespace kedge
         if (!condition.pore_pressure.empty())
           throw SectionReader(reader, {"Node conditions", condition.name})
             .error("Pore pressure", "The bodies are dry: give Pore fluid/Density.");
+      for (const std::string &name : reader.names("Surface pressures"))
+        throw SectionReader(reader, {"Surface pressures", name})
+          .error("Pressure", "The bodies are dry: give Pore fluid/Density.");
     }
 
     /** Refuses what the u-p balance does not have. */
@@ -52,13 +57,13 @@ namespace kedge
     const SectionReader section(reader, {"Pore fluid"});
     if (section.is_empty("Density"))
       {
-        for (const std::string &entry : {"Initial porosity", "Hydraulic conductivity"})
+        for (const char *entry : {"Initial porosity", "Hydraulic conductivity"})
           if (!section.is_empty(entry))
             throw section.error(entry, "Without a Density there is no pore fluid.");
         check_dry(reader, scene);
         return {};
       }
-    for (const std::string &entry : {"Initial porosity", "Hydraulic conductivity"})
+    for (const char *entry : {"Initial porosity", "Hydraulic conductivity"})
       if (section.is_empty(entry))
         throw section.error(entry, "It must be given where there is a pore fluid.");
     check_saturated(reader, scene);
@@ -72,12 +77,37 @@ namespace kedge
     result.fluid.reference_gravity      = section.number("Reference gravity");
     result.fluid.porosity_watch =
       section.text("Lost porosity") == "stop" ? PorosityWatch::stop : PorosityWatch::warn;
-    result.stabilisation = section.number("Stabilisation");
+    result.stabilisation   = section.number("Stabilisation");
+    result.surface_penalty = section.number("Surface penalty");
     return result;
   }
 
 
 
+  template <int dim>
+  std::vector<SurfacePressureParameters>
+  read_surface_pressures(const ParameterReader &reader)
+  {
+    std::vector<SurfacePressureParameters> result;
+    for (const std::string &name : reader.names("Surface pressures"))
+      {
+        const SectionReader section(reader, {"Surface pressures", name});
+        find_name(reader, section, "Body", "Bodies");
+        result.push_back({name,
+                          section.text("Body"),
+                          parse_side<dim>(section.text("Side")),
+                          section.text("Where"),
+                          section.text("Pressure")});
+      }
+    return result;
+  }
+
+
+
+  template std::vector<SurfacePressureParameters>
+  read_surface_pressures<2>(const ParameterReader &);
+  template std::vector<SurfacePressureParameters>
+  read_surface_pressures<3>(const ParameterReader &);
   template std::optional<PorousParameters>
   read_pore_fluid<2>(const ParameterReader &, const Scene<2> &);
   template std::optional<PorousParameters>

@@ -417,6 +417,7 @@ namespace kedge
     scene.probes          = read_probes<dim>(reader);
     scene.checks          = read_checks(reader, scene.time);
     scene.pore_fluid      = read_pore_fluid<dim>(reader, scene);
+    scene.surface_pressures = read_surface_pressures<dim>(reader);
     if (scene.pore_fluid)
       scene.time.pore_theta = SectionReader(reader, {"Pore fluid"}).number("Theta");
     scene.parameters = reader.print();

@@ -151,6 +151,11 @@ namespace kedge
             continue;
           }
         finish_step(step);
+        if (!watch_porosity())
+          {
+            write_checkpoint();
+            return finish("numerical_stop", "a material point has lost its pores");
+          }
         if (signals.stop_requested())
           {
             write_checkpoint();
@@ -203,6 +208,24 @@ namespace kedge
     write_probes();
     write_points(false);
     progress.report(row);
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::watch_porosity()
+  {
+    if (!scene.pore_fluid || row.min_porosity > 0.)
+      return true;
+    if (!porosity_is_lost)
+      folder.log() << "  the porosity of a material point has fallen to " << row.min_porosity
+                   << " at t = " << row.time << " s, step " << row.step
+                   << ": its grains would overlap, which this skeleton does not see; from here on "
+                      "the answer is not one of a soil (Pore fluid/Lost porosity)"
+                   << std::endl;
+    porosity_is_lost = true;
+    return scene.pore_fluid->fluid.porosity_watch == PorosityWatch::warn;
   }
 
 

@@ -109,6 +109,7 @@ namespace kedge
             scene.point_loads,
             scene.tractions,
             scene.constants)
+    , surfaces(scene.surface_pressures, scene.constants)
     , balance(make_balance())
   {
     for (const auto &body : scene.bodies)
@@ -178,7 +179,10 @@ namespace kedge
                     stiffness_radius,
                     new_pattern);
     if (porous != nullptr)
-      porous->read_pores(cloud);
+      {
+        porous->read_pores(cloud);
+        surfaces.reinit(cloud, step_points);
+      }
   }
 
 
@@ -287,9 +291,10 @@ namespace kedge
   StepEngine<dim>::apply_external_forces(const double t)
   {
     nodal.external_force.assign(std::size_t(nodes.n_local()) * dim, 0.);
-    if (loads.empty())
+    if (loads.empty() && surfaces.empty())
       return;
     loads.force(step_points, t, point_forces);
+    surfaces.add_force(t, point_forces);
     const std::vector<double> ones(step_points.size(), 1.);
     add_to_nodes(step_points, background.window(), nodes, ones, point_forces, nodal.external_force);
     ties.restrict_sums(nodal.external_force);

@@ -40,6 +40,8 @@ namespace kedge
     auto problem = std::make_unique<PorousProblem<dim>>(
       PorousForce<dim>(material_of_body, soils_of_bodies(), scheme.alpha_f, PoreScheme(scene.time)),
       loads,
+      surfaces,
+      scene.pore_fluid->surface_penalty,
       scheme,
       scene.linear_solver,
       modulus,
@@ -52,7 +54,7 @@ namespace kedge
 
   template <int dim>
   void
-  StepEngine<dim>::saturate_points()
+  StepEngine<dim>::saturate(std::vector<GeneratedPoint<dim>> &points) const
   {
     const PoreFluid         fluid(scene.pore_fluid->fluid);
     std::vector<Expression> pressure;
@@ -60,7 +62,7 @@ namespace kedge
       pressure.emplace_back(body.initial_pore_pressure,
                             std::vector<std::string>{"x", "y", "z"},
                             scene.constants);
-    for (auto &point : generated)
+    for (auto &point : points)
       {
         PointState<dim> &state = point.record.state;
         double           x[3]  = {0, 0, 0};

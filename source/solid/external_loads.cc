@@ -180,8 +180,12 @@ namespace kedge
     for (const auto &expressions : load_expressions)
       loads.push_back(evaluate<dim>(expressions, t));
     for (const unsigned int slot : points.loaded)
-      for (const Share &share : shares.at(points.id[slot]))
-        forces[slot] += share.factor * loads[share.load];
+      {
+        const auto found = shares.find(points.id[slot]);
+        if (found != shares.end()) // another thing may act on it
+          for (const Share &share : found->second)
+            forces[slot] += share.factor * loads[share.load];
+      }
   }
 
   template class ExternalLoads<2>;

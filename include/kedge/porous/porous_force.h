@@ -4,6 +4,7 @@
 #include <kedge/materials/material.h>
 #include <kedge/porous/pore_points.h>
 #include <kedge/porous/pore_update.h>
+#include <kedge/porous/surface_pressures.h>
 #include <kedge/solid/internal_force.h>
 
 namespace kedge
@@ -16,12 +17,15 @@ namespace kedge
   template <int dim>
   struct PorousTrial
   {
-    const std::vector<double>           &unknowns;     ///< dim + 1 per local node
-    const std::vector<double>           &acceleration; ///< dim per local node; empty: none
-    double                               inertia;      ///< d acceleration/d u [1/s^2]
-    double                               dt;           ///< [s]
-    double                               cell_size;    ///< [m], for PorousSize
-    std::array<double, std::size_t(dim)> body_force;   ///< acceleration f [m/s^2]
+    const std::vector<double>            &unknowns;     ///< dim + 1 per local node
+    const std::vector<double>            &acceleration; ///< dim per local node; empty: none
+    double                                inertia;      ///< d acceleration/d u [1/s^2]
+    double                                dt;           ///< [s]
+    double                                cell_size;    ///< [m], for PorousSize
+    std::array<double, std::size_t(dim)>  body_force;   ///< acceleration f [m/s^2]
+    const std::vector<SurfacePoint<dim>> &surface;
+    std::vector<double>                   surface_pressures; ///< prescribed, by surface [Pa]
+    double                                surface_penalty;   ///< see SurfacePressures [-]
   };
 
   /** Size of the terms that cancel in the residuals: sums of squares over the rank's cells. */
@@ -55,6 +59,7 @@ namespace kedge
      * of fluid [m^3]. Stops at the first point that fails.
      *
      * @param size grows by the terms' squares
+     * @param outflow grows by the volume that leaves each surface [m^3]
      */
     PointStatus
     add_residual(const StepPoints<dim>    &points,
@@ -63,6 +68,7 @@ namespace kedge
                  const ActiveNodes<dim>   &nodes,
                  const PorousTrial<dim>   &trial,
                  std::vector<double>      &residual,
+                 std::vector<double>      &outflow,
                  PorousSize               &size) const;
 
     /** Adds d residual / d unknowns to @p tangent, a matrix with dim + 1 components. */

@@ -9,7 +9,8 @@
 
 namespace kedge
 {
-  /** What entered the fluid of the bodies through prescribed pressures in a step. */
+  /** What entered the fluid of the bodies through prescribed pressures, at nodes and on surfaces.
+   */
   struct FluidInflow
   {
     double mass = 0.; ///< in the balance of the step: dt m' [kg]
@@ -34,6 +35,8 @@ namespace kedge
   public:
     PorousProblem(const PorousForce<dim>         &force,
                   const ExternalLoads<dim>       &loads,
+                  const SurfacePressures<dim>    &surfaces,
+                  const double                    surface_penalty,
                   const Scheme                   &scheme,
                   const LinearSolverParameters   &parameters,
                   const double                    p_wave_modulus,
@@ -130,6 +133,12 @@ namespace kedge
     copy_displacement();
     PorousTrial<dim>
     trial() const;
+    PorousTrial<dim>
+    trial_at(const std::vector<double> &accelerations,
+             const double               inertia,
+             const double               step,
+             const double               t_load,
+             const double               t_pressure) const;
     void
     assemble_tangent();
     double
@@ -141,6 +150,8 @@ namespace kedge
 
     const PorousForce<dim>         porous_force;
     const ExternalLoads<dim>      &loads;
+    const SurfacePressures<dim>   &surfaces;
+    const double                   surface_penalty;
     const Scheme                   scheme;
     const double                   modulus;
     const std::vector<std::string> body_names;
@@ -162,6 +173,7 @@ namespace kedge
     std::vector<NodalStatus> status;
     std::vector<double>      unknowns, residual, correction; ///< dim + 1 per node
     std::vector<double>      acceleration;
+    std::vector<double>      outflow; ///< through surfaces with a pressure [m^3]
     SolidTimings             timings_;
     std::string              warning_; ///< of a singular tangent in this step
     double                   condition          = 0.;

@@ -15,6 +15,15 @@ namespace kedge
   template <int dim>
   std::optional<PorousParameters>
   read_pore_fluid(const ParameterReader &reader, const Scene<dim> &scene);
+
+  /**
+   * The section Surface pressures.
+   *
+   * @throws UserError for a body that is not there
+   */
+  template <int dim>
+  std::vector<SurfacePressureParameters>
+  read_surface_pressures(const ParameterReader &reader);
 } // namespace kedge
 
 #endif

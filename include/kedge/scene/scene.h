@@ -31,6 +31,7 @@ namespace kedge
     std::vector<MaterialParameters>           materials;
     std::vector<BodyParameters<dim>>          bodies;
     std::optional<PorousParameters>           pore_fluid; ///< saturates all bodies
+    std::vector<SurfacePressureParameters>    surface_pressures;
     std::array<std::string, dim>              body_force; ///< expressions of t [m/s^2]
     std::vector<PointLoadParameters<dim>>     point_loads;
     std::vector<TractionParameters<dim>>      tractions;

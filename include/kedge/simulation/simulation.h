@@ -65,6 +65,9 @@ namespace kedge
     set_step();
     void
     finish_step(const StepReport &report);
+    /** Warns of the first point without pores; false if the run is to stop there. */
+    bool
+    watch_porosity();
     bool
     reject_step(const StepReport &report);
     void
@@ -100,6 +103,7 @@ namespace kedge
     Clock            clock;
     Totals           totals;
     HistoryRow       row;
+    bool             porosity_is_lost = false;
 
     std::unique_ptr<HistoryWriter>     history;
     std::unique_ptr<ProbeWriter<dim>>  probes;

@@ -60,7 +60,7 @@ namespace kedge
                    const std::vector<unsigned int>     &weights);
 
     /** The points as generated, with exposed faces, for probes; all ranks have all. */
-    const std::vector<GeneratedPoint<dim>> &
+    const std::vector<PointOrigin<dim>> &
     generated_points() const
     {
       return generated;
@@ -228,7 +228,7 @@ namespace kedge
     std::vector<Soil>
     soils_of_bodies() const;
     void
-    saturate_points();
+    saturate(std::vector<GeneratedPoint<dim>> &points) const;
     void
     initialise_fluctuations();
     void
@@ -237,6 +237,8 @@ namespace kedge
     add_pore_work();
     void
     write_pore_books(HistoryRow &row) const;
+    std::vector<PointRecord<dim>>
+    generate_records();
     void
     check_overlaps() const;
     void
@@ -282,25 +284,26 @@ namespace kedge
     const bool               with_history;    ///< of any material
     std::vector<std::string> body_names;
 
-    BackgroundGrid<dim>  background;
-    MaterialPoints<dim>  cloud;
-    StepPoints<dim>      step_points;
-    ActiveNodes<dim>     nodes;
-    NodeConditions<dim>  conditions;
-    NodeTies<dim>        ties;
-    ExternalLoads<dim>   loads;
-    NodeMatrix<dim>      mass;
-    GhostPenalty<dim>    ghosts;
-    NodeMatrix<dim>      ghost_mass, ghost_stiffness;
-    NodeMatrix<dim>      ghosted_mass; ///< mass and ghost mass
-    bool                 ghosts_in_mapping = false;
-    VelocityMapping<dim> mapping;
-    NodalState           nodal;
+    BackgroundGrid<dim>   background;
+    MaterialPoints<dim>   cloud;
+    StepPoints<dim>       step_points;
+    ActiveNodes<dim>      nodes;
+    NodeConditions<dim>   conditions;
+    NodeTies<dim>         ties;
+    ExternalLoads<dim>    loads;
+    SurfacePressures<dim> surfaces;
+    NodeMatrix<dim>       mass;
+    GhostPenalty<dim>     ghosts;
+    NodeMatrix<dim>       ghost_mass, ghost_stiffness;
+    NodeMatrix<dim>       ghosted_mass; ///< mass and ghost mass
+    bool                  ghosts_in_mapping = false;
+    VelocityMapping<dim>  mapping;
+    NodalState            nodal;
 
     PorousProblem<dim> *porous = nullptr; ///< the balance, if it is that of saturated soil
     std::unique_ptr<Balance<dim>> balance;
 
-    std::vector<GeneratedPoint<dim>>    generated;
+    std::vector<PointOrigin<dim>>       generated;
     LatticeWindow<dim>                  covered;
     std::vector<unsigned int>           weights;
     bool                                activated = false, new_pattern = false;
