@@ -28,7 +28,8 @@ MAY_INCLUDE = {
 }
 PHYSICS = MAY_INCLUDE["transfer"] | {"transfer", "materials", "time_integration"}
 MAY_INCLUDE["solid"] = PHYSICS
-MAY_INCLUDE["porous"] = PHYSICS
+# the skeleton of a soil is a solid: its loads, its balance as a step sees it
+MAY_INCLUDE["porous"] = PHYSICS | {"solid"}
 MAY_INCLUDE["contact"] = PHYSICS
 # scene sees nothing of the rooms but their parameters
 MAY_INCLUDE["scene"] = set()

@@ -79,6 +79,23 @@ kedge_add_scene_test(scene.strip_footing prm/strip_footing.prm
 kedge_add_scene_test(scene.necking_bar prm/necking_bar.prm
   SET "Output/Points interval = 0")
 
+# --- Saturated soil ---------------------------------------------------------------
+kedge_add_scene_test(scene.terzaghi prm/terzaghi.prm COMPARE_RANKS 1e-8)
+kedge_add_scene_test(scene.terzaghi.early prm/terzaghi.prm
+  SET "Constants/T = 0.02" "Constants/dt = 0.01")
+kedge_add_scene_test(scene.terzaghi.linear prm/terzaghi.prm
+  SET "Constants/T = 0.2" "Bodies/column/Basis = linear")
+foreach(scheme trapezoidal newmark midpoint)
+  kedge_add_scene_test(scene.falling_soil.${scheme} prm/falling_soil.prm
+    SET "Time/Scheme = ${scheme}")
+endforeach()
+# the printed form forgets acceleration and rates
+kedge_add_scene_test(scene.falling_soil.printed prm/falling_soil.prm
+  SET "Time/Carry acceleration = false" "Checks/velocity/Reference = -g*T/2"
+    "Checks/distance/Reference = -g*T^2/4" "Checks/energy books/Tolerance = 1")
+kedge_add_restart_test(scene.restart.terzaghi prm/terzaghi.prm KILLS 1
+  SET "Constants/T = 0.1" "Output/Checkpoint every steps = 5")
+
 # --- Free fall with every scheme ----------------------------------------------
 foreach(scheme clc-midpoint midpoint trapezoidal newmark generalised-alpha)
   kedge_add_scene_test(scene.falling_body.${scheme} prm/falling_body.prm

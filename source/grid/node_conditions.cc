@@ -34,6 +34,11 @@ namespace kedge
             any_moving_ = true;
             needs_place = needs_place || at_place;
           }
+        if (!p.pore_pressure.empty())
+          {
+            condition.pressure = Expression(p.pore_pressure, {"x", "y", "z", "t"}, constants);
+            any_pressure = needs_place = true;
+          }
         conditions.push_back(std::move(condition));
       }
   }
@@ -65,12 +70,17 @@ namespace kedge
   NodeConditions<dim>::reinit(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes)
   {
     condition_of.assign(std::size_t(nodes.n_local()) * dim, -1);
+    pressure_condition_of.assign(any_pressure ? nodes.n_local() : 0, -1);
     for (unsigned int c = 0; c < conditions.size(); ++c)
       for (unsigned int i = 0; i < nodes.n_local(); ++i)
         if (applies(conditions[c], grid.lattice(), grid.window().node_index(nodes.window_node(i))))
-          for (int d = 0; d < dim; ++d)
-            if (conditions[c].motions[d].kind != ConditionKind::free)
-              condition_of[std::size_t(i) * dim + d] = c;
+          {
+            for (int d = 0; d < dim; ++d)
+              if (conditions[c].motions[d].kind != ConditionKind::free)
+                condition_of[std::size_t(i) * dim + d] = c;
+            if (conditions[c].pressure)
+              pressure_condition_of[i] = c;
+          }
     if (!needs_place)
       return;
     place.resize(nodes.n_local());
@@ -104,6 +114,16 @@ namespace kedge
         default:
           return 0.;
       }
+  }
+
+  template <int dim>
+  double
+  NodeConditions<dim>::pressure(const unsigned int node, const double t) const
+  {
+    double x[4] = {0, 0, 0, t};
+    for (int d = 0; d < dim; ++d)
+      x[d] = place[node][d];
+    return (*conditions[pressure_condition_of[node]].pressure)({x[0], x[1], x[2], x[3]});
   }
 
   template class NodeConditions<2>;

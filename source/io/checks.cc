@@ -176,7 +176,8 @@ namespace kedge
   void
   verify_checks(const std::vector<CheckParameters> &checks,
                 const std::vector<std::string>     &history_columns,
-                const std::vector<std::string>     &probe_names)
+                const std::vector<std::string>     &probe_names,
+                const bool                          saturated)
   {
     for (const CheckParameters &check : checks)
       {
@@ -192,7 +193,7 @@ namespace kedge
           {
             demand(place.column.substr(0, dot), probe_names, check, "probe");
             demand(place.column.substr(dot + 1),
-                   ProbeWriter<dim>::quantity_names(),
+                   ProbeWriter<dim>::quantity_names(saturated),
                    check,
                    "column of probes");
           }
@@ -304,11 +305,13 @@ namespace kedge
   template void
   verify_checks<2>(const std::vector<CheckParameters> &,
                    const std::vector<std::string> &,
-                   const std::vector<std::string> &);
+                   const std::vector<std::string> &,
+                   const bool);
   template void
   verify_checks<3>(const std::vector<CheckParameters> &,
                    const std::vector<std::string> &,
-                   const std::vector<std::string> &);
+                   const std::vector<std::string> &,
+                   const bool);
   template std::vector<CheckResult>
   evaluate_checks<2>(const std::vector<CheckParameters> &,
                      const RunFolder &,

@@ -29,12 +29,16 @@ namespace kedge
       names.insert(names.end(), {"hardening_energy", "plastic_dissipation"});
     if (stabilisation)
       names.push_back("stabilisation_energy");
+    if (pores)
+      names.insert(names.end(), {"fluid_energy", "darcy_dissipation"});
     names.insert(names.end(), {"external_work", "total_energy", "energy_error"});
     names.insert(names.end(), {"linear_momentum_x", "linear_momentum_y"});
     if (dim == 3)
       names.insert(names.end(), {"linear_momentum_z", "angular_momentum_x", "angular_momentum_y"});
     names.push_back("angular_momentum_z");
     names.insert(names.end(), reactions.begin(), reactions.end());
+    if (pores)
+      names.insert(names.end(), {"solid_mass", "fluid_mass", "fluid_inflow", "min_porosity"});
     names.insert(names.end(),
                  {"mass", "n_points", "n_active_cells", "n_dofs", "min_det_F", "wall_time"});
     return names;
@@ -66,6 +70,8 @@ namespace kedge
       *file << row.hardening_energy << row.plastic_dissipation;
     if (columns.stabilisation)
       *file << row.stabilisation_energy;
+    if (columns.pores)
+      *file << row.fluid_energy << row.darcy_dissipation;
     *file << row.external_work << row.total_energy() << row.energy_error;
     for (unsigned int d = 0; d < columns.dim; ++d)
       *file << row.linear_momentum[d];
@@ -73,6 +79,8 @@ namespace kedge
       *file << row.angular_momentum[d];
     for (unsigned int k = 0; k < columns.reactions.size(); ++k) // none before the first step
       *file << (k < row.reactions.size() ? row.reactions[k] : 0.);
+    if (columns.pores)
+      *file << row.solid_mass << row.fluid_mass << row.fluid_inflow << row.min_porosity;
     *file << row.mass << row.n_points << row.n_active_cells << row.n_dofs << row.min_det_F
           << row.wall_time;
     file->end_row();

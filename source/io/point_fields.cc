@@ -239,6 +239,48 @@ namespace kedge
                 }}};
     }
 
+    template <int dim>
+    std::vector<PointField<dim>>
+    pore_fields()
+    {
+      using P = const PointRecord<dim> &;
+      using F = PointField<dim>;
+      return {F{"pore_pressure",
+                "Pa",
+                "pressure of the pore fluid, positive in compression",
+                FieldShape::scalar,
+                false,
+                [](P p, double *v) {
+                  *v = p.state.pore_pressure;
+                }},
+              F{"porosity",
+                "-",
+                "pores over volume now",
+                FieldShape::scalar,
+                false,
+                [](P p, double *v) {
+                  *v = p.state.porosity;
+                }},
+              F{"darcy_velocity",
+                "m/s",
+                "volume of fluid per area and time, through the skeleton",
+                FieldShape::vector,
+                false,
+                [](P p, double *v) {
+                  put_vector<dim>(p.state.darcy_velocity, v);
+                }},
+              F{"total_stress",
+                "Pa",
+                "Cauchy stress less the pore pressure, tension positive",
+                FieldShape::symmetric_tensor,
+                false,
+                [](P p, double *v) {
+                  put_stress(p.state, det_F(p), v);
+                  for (int i = 0; i < 3; ++i)
+                    v[i] -= p.state.pore_pressure;
+                }}};
+    }
+
     [[noreturn]] void
     unknown(const std::string &name, const std::vector<std::string> &valid)
     {
@@ -314,7 +356,8 @@ namespace kedge
   {
     static const std::vector<PointField<dim>> fields = []() {
       std::vector<PointField<dim>> all;
-      for (const auto &group : {kinematic_fields<dim>(), stress_fields<dim>(), other_fields<dim>()})
+      for (const auto &group :
+           {kinematic_fields<dim>(), stress_fields<dim>(), other_fields<dim>(), pore_fields<dim>()})
         all.insert(all.end(), group.begin(), group.end());
       return all;
     }();

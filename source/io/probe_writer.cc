@@ -15,10 +15,17 @@ namespace kedge
   {
     template <int dim>
     std::vector<PointQuantity<dim>>
-    quantities()
+    quantities(const bool saturated)
     {
+      std::vector<const char *> fields = {"position",
+                                          "displacement",
+                                          "velocity",
+                                          "cauchy_stress",
+                                          "pressure"};
+      if (saturated)
+        fields.insert(fields.end(), {"pore_pressure", "porosity", "darcy_velocity"});
       std::vector<PointQuantity<dim>> result;
-      for (const char *name : {"position", "displacement", "velocity", "cauchy_stress", "pressure"})
+      for (const char *name : fields)
         for (const auto &component : point_field<dim>(name).components())
           result.push_back({&point_field<dim>(name), component.index});
       return result;
@@ -48,8 +55,10 @@ namespace kedge
   template <int dim>
   ProbeWriter<dim>::ProbeWriter(const RunFolder                    &folder,
                                 const std::vector<Probe>           &probes,
-                                const std::optional<std::uint64_t> &resume_at)
+                                const std::optional<std::uint64_t> &resume_at,
+                                const bool                          saturated)
     : communicator(folder.communicator())
+    , all(quantities<dim>(saturated))
   {
     check_names(probes);
     std::vector<std::string> columns = {"time"};
@@ -61,7 +70,7 @@ namespace kedge
         for (const auto &[id, weight] : probe.points)
           tracked.push_back({id, static_cast<unsigned int>(names.size()), weight / sum});
         names.push_back(probe.name);
-        for (const std::string &quantity : quantity_names())
+        for (const std::string &quantity : quantity_names(saturated))
           columns.push_back(probe.name + '.' + quantity);
       }
     std::stable_sort(tracked.begin(), tracked.end(), [](const Tracked &a, const Tracked &b) {
@@ -114,7 +123,7 @@ namespace kedge
   void
   ProbeWriter<dim>::begin()
   {
-    sums.assign(names.size() * (quantities<dim>().size() + 1), 0.);
+    sums.assign(names.size() * (all.size() + 1), 0.);
   }
 
 
@@ -123,8 +132,6 @@ namespace kedge
   void
   ProbeWriter<dim>::add(const PointRecord<dim> &point)
   {
-    static const std::vector<PointQuantity<dim>> all = quantities<dim>();
-
     auto next = std::lower_bound(tracked.begin(),
                                  tracked.end(),
                                  point.id,
@@ -195,10 +202,10 @@ namespace kedge
 
   template <int dim>
   std::vector<std::string>
-  ProbeWriter<dim>::quantity_names()
+  ProbeWriter<dim>::quantity_names(const bool saturated)
   {
     std::vector<std::string> result;
-    for (const PointQuantity<dim> &quantity : quantities<dim>())
+    for (const PointQuantity<dim> &quantity : quantities<dim>(saturated))
       for (const auto &component : quantity.field->components())
         if (component.index == quantity.index)
           result.push_back(quantity.field->component_name(component));

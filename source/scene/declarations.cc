@@ -25,11 +25,13 @@ namespace kedge
                                                     user_constants(),
                                                     grid(),
                                                     declare_materials(allow),
+                                                    declare_pore_fluid<dim>(allow),
                                                     bodies(),
                                                     node_conditions(),
                                                     body_force(),
                                                     point_loads(),
                                                     tractions(),
+                                                    surface_pressures(),
                                                     time()};
         for (SectionDeclaration &section : declare_numerics<dim>(allow))
           sections.push_back(std::move(section));
@@ -139,6 +141,10 @@ namespace kedge
             per_direction("0", "; "),
             allow.expressions(coordinates("xyz"), coordinate_words("xyz")),
             "Velocity at the start [m/s]; x, y, z is the place at the start."},
+           {"Initial pore pressure",
+            "0",
+            allow.expression(coordinates("xyz"), coordinate_words("xyz")),
+            "Of a saturated body at the start [Pa]; x, y, z is the place at the start."},
            {"Body force", "true", allow.truth(), "Whether the section Body force acts on it."}}};
       }
 
@@ -159,6 +165,13 @@ namespace kedge
            "false",
            allow.truth(),
            "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."});
+        std::vector<std::string> variables = coordinates("xyz");
+        variables.emplace_back("t");
+        section.entries.push_back(
+          {"Pore pressure",
+           "",
+           allow.expression(variables, coordinate_words("xyz") + ", t").or_empty(),
+           "Of a saturated body there [Pa]; empty: whatever comes, no flow through the surface."});
         for (const std::string &coordinate : coordinates("xyz"))
           section.entries.push_back({"Component " + coordinate,
                                      "free",
@@ -214,6 +227,25 @@ namespace kedge
                   required,
                   allow.expressions({"t"}, "t"),
                   "Force per area of the undeformed face [Pa]."}}};
+      }
+
+      SectionDeclaration
+      surface_pressures() const
+      {
+        return {"Surface pressures",
+                "Pore pressures on the outer faces of a saturated body that look to one side; they "
+                "move with the body, and press on it as water does.",
+                SectionKind::named,
+                {{"Body",
+                  required,
+                  allow.text("the name of a section of Bodies"),
+                  "The body whose faces they are."},
+                 {"Side", required, allow.side(), "The side to which the faces look at the start."},
+                 {"Where",
+                  "",
+                  allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
+                  "Only faces where this is true at the start; empty: all; 0: none."},
+                 {"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."}}};
       }
 
       SectionDeclaration
@@ -312,7 +344,11 @@ namespace kedge
                         "body",
                         "id",
                         "equivalent_plastic_strain",
-                        "plastic_dissipation"})
+                        "plastic_dissipation",
+                        "pore_pressure",
+                        "porosity",
+                        "darcy_velocity",
+                        "total_stress"})
               .or_empty(),
             "What the pictures hold."},
            {"Formats",

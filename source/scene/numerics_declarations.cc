@@ -98,6 +98,59 @@ namespace kedge
 
 
   template <int dim>
+  SectionDeclaration
+  declare_pore_fluid(const ValuePatterns<dim> &allow)
+  {
+    NumberRange fraction    = NumberRange::positive();
+    fraction.upper          = 1;
+    fraction.includes_upper = false;
+    NumberRange theta       = fraction;
+    theta.includes_upper    = true;
+    theta.lower             = 0.5;
+    theta.includes_lower    = true;
+    const auto positive     = allow.number(NumberRange::positive());
+    return {
+      "Pore fluid",
+      "With a Density all bodies are saturated with it; what a material says is then of the "
+      "skeleton: its Density is that of the grains, its stress the effective one. Pore "
+      "pressure is positive in compression.",
+      SectionKind::plain,
+      {{"Density",
+        "",
+        positive.or_empty(),
+        "Of the fluid at pressure 0 [kg/m^3]; empty: the bodies are dry."},
+       {"Bulk modulus", "2.2e9", positive, "Of the fluid [Pa]; the default is water's."},
+       {"Initial porosity", "", allow.number(fraction).or_empty(), "Pores over volume [-]."},
+       {"Hydraulic conductivity",
+        "",
+        positive.or_empty(),
+        "At the initial porosity, kappa_0 [m/s]."},
+       {"Conductivity law",
+        "constant",
+        allow.one_of({"constant", "kozeny-carman"}),
+        "kozeny-carman: follows the porosity n as n^3/(1 - n)^2."},
+       {"Reference gravity", "9.81", positive, "With which the conductivity was measured [m/s^2]."},
+       {"Stabilisation",
+        "1",
+        allow.number(NumberRange::not_negative()),
+        "Factor of the polynomial pressure projection, times 1/(2 G) [-]; 0: none."},
+       {"Surface penalty",
+        "10",
+        allow.number(NumberRange::positive()),
+        "Of Surface pressures, times the conductivity over the size of a cell [-]."},
+       {"Theta",
+        "0.5",
+        allow.number(theta),
+        "Of the fluid's balance in the scheme midpoint: 1/2 is of second order, 1 damps [-]."},
+       {"Lost porosity",
+        "warn",
+        allow.one_of({"warn", "stop"}),
+        "What is done when a point's porosity falls to zero."}}};
+  }
+
+
+
+  template <int dim>
   std::vector<SectionDeclaration>
   declare_numerics(const ValuePatterns<dim> &allow)
   {
@@ -106,6 +159,10 @@ namespace kedge
 
 
 
+  template SectionDeclaration
+  declare_pore_fluid<2>(const ValuePatterns<2> &);
+  template SectionDeclaration
+  declare_pore_fluid<3>(const ValuePatterns<3> &);
   template std::vector<SectionDeclaration>
   declare_numerics<2>(const ValuePatterns<2> &);
   template std::vector<SectionDeclaration>

@@ -2,6 +2,7 @@
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
 #include <kedge/scene/read_materials.h>
+#include <kedge/scene/read_pore_fluid.h>
 #include <kedge/scene/read_scene.h>
 #include <kedge/scene/values.h>
 
@@ -125,8 +126,9 @@ namespace kedge
         if (!bodies.empty() &&
             (bodies[0].basis == BasisKind::quadratic) != (body.basis == BasisKind::quadratic))
           throw section.error("Basis", "If a body is quadratic, all of them must be.");
-        body.initial_velocity = components<dim>(section, "Initial velocity");
-        body.body_force       = section.truth("Body force");
+        body.initial_velocity      = components<dim>(section, "Initial velocity");
+        body.body_force            = section.truth("Body force");
+        body.initial_pore_pressure = section.text("Initial pore pressure");
         check_inside_grid(section, *body.geometry, grid);
         bodies.push_back(body);
       });
@@ -152,8 +154,9 @@ namespace kedge
           condition.side = parse_side<dim>(section.text("Side"));
         else
           condition.where = section.text("Where");
-        condition.reaction = section.truth("Reaction");
-        bool acts          = false;
+        condition.reaction      = section.truth("Reaction");
+        condition.pore_pressure = section.text("Pore pressure");
+        bool acts               = !condition.pore_pressure.empty();
         for (unsigned int d = 0; d < dim; ++d)
           {
             condition.components[d] =
@@ -164,7 +167,7 @@ namespace kedge
         if (!acts)
           throw section.error("Component x",
                               "All components are free, so the condition does nothing; fix or "
-                              "move one or leave the condition out.");
+                              "move one, give a Pore pressure, or leave the condition out.");
         conditions.push_back(condition);
       });
       return conditions;
@@ -438,9 +441,13 @@ namespace kedge
     scene.transfer        = read_mapping(reader);
     scene.stabilisation   = read_stabilisation(reader);
     set_elements(reader, scene);
-    scene.output     = read_output(reader, scene.time);
-    scene.probes     = read_probes<dim>(reader);
-    scene.checks     = read_checks(reader, scene.time);
+    scene.output            = read_output(reader, scene.time);
+    scene.probes            = read_probes<dim>(reader);
+    scene.checks            = read_checks(reader, scene.time);
+    scene.pore_fluid        = read_pore_fluid<dim>(reader, scene);
+    scene.surface_pressures = read_surface_pressures<dim>(reader);
+    if (scene.pore_fluid)
+      scene.time.pore_theta = SectionReader(reader, {"Pore fluid"}).number("Theta");
     scene.parameters = reader.print();
     return scene;
   }

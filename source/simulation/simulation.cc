@@ -28,7 +28,7 @@ namespace kedge
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
       probe_names.push_back(probe.name);
-    verify_checks<dim>(scene.checks, columns().names(), probe_names);
+    verify_checks<dim>(scene.checks, columns().names(), probe_names, engine.has_pores());
 
     engine.create_points();
     if (options.resume)
@@ -57,7 +57,10 @@ namespace kedge
   Simulation<dim>::start_fresh()
   {
     history       = std::make_unique<HistoryWriter>(folder, columns());
-    probes        = std::make_unique<ProbeWriter<dim>>(folder, find_probes());
+    probes        = std::make_unique<ProbeWriter<dim>>(folder,
+                                                find_probes(),
+                                                std::optional<std::uint64_t>(),
+                                                engine.has_pores());
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output);
     if (scene.output.grid)
       grid_output = std::make_unique<GridOutput<dim>>(folder);
@@ -66,7 +69,7 @@ namespace kedge
     if (engine.audits_transfer())
       audit_writer = std::make_unique<AuditWriter<dim>>(folder);
 
-    engine.initialise_accelerations(clock.time());
+    engine.initialise_points(clock.time());
     engine.write_books(row);
     row.time                = clock.time();
     row.time_step           = 0.;
@@ -104,7 +107,8 @@ namespace kedge
   {
     HistoryColumns columns = {dim,
                               engine.has_plasticity(),
-                              scene.stabilisation.method == StabilisationKind::ghost,
+                              engine.has_stabilisation(),
+                              engine.has_pores(),
                               {}};
     for (const auto &condition : scene.node_conditions)
       if (condition.reaction)
@@ -147,6 +151,11 @@ namespace kedge
             continue;
           }
         finish_step(step);
+        if (!watch_porosity())
+          {
+            write_checkpoint();
+            return finish("numerical_stop", "a material point has lost its pores");
+          }
         if (signals.stop_requested())
           {
             write_checkpoint();
@@ -168,6 +177,10 @@ namespace kedge
     clock.advance(step.newton.iterations);
     totals.external_work += engine.work_of_last_step();
     totals.ghost_work += engine.ghost_work_of_last_step();
+    const PoreBooks &pores = engine.pore_books_of_last_step();
+    totals.ghost_work += pores.stabilisation;
+    totals.fluid_inflow += pores.inflow;
+    totals.darcy_dissipation += pores.darcy_dissipation;
 
     row.step                 = clock.n_steps();
     row.time                 = clock.time();
@@ -176,10 +189,12 @@ namespace kedge
     row.rejected_attempts    = static_cast<unsigned int>(totals.rejected_pending);
     row.external_work        = totals.external_work;
     row.stabilisation_energy = totals.ghost_work;
+    row.fluid_inflow         = totals.fluid_inflow;
+    row.darcy_dissipation    = totals.darcy_dissipation;
     row.reactions            = reactions();
     engine.write_books(row);
-    row.energy_error = row.total_energy() + row.plastic_dissipation + row.stabilisation_energy -
-                       totals.initial_energy - row.external_work;
+    row.energy_error = row.total_energy() + row.plastic_dissipation + row.darcy_dissipation +
+                       row.stabilisation_energy - totals.initial_energy - row.external_work;
     row.wall_time           = wall_time();
     totals.rejected_pending = 0;
     totals.points_times_steps += static_cast<double>(row.n_points) * step.newton.iterations;
@@ -193,6 +208,24 @@ namespace kedge
     write_probes();
     write_points(false);
     progress.report(row);
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::watch_porosity()
+  {
+    if (!scene.pore_fluid || row.min_porosity > 0.)
+      return true;
+    if (!porosity_is_lost)
+      folder.log() << "  the porosity of a material point has fallen to " << row.min_porosity
+                   << " at t = " << row.time << " s, step " << row.step
+                   << ": its grains would overlap, which this skeleton does not see; from here on "
+                      "the answer is not one of a soil (Pore fluid/Lost porosity)"
+                   << std::endl;
+    porosity_is_lost = true;
+    return scene.pore_fluid->fluid.porosity_watch == PorosityWatch::warn;
   }
 
 

@@ -186,6 +186,8 @@ namespace kedge
                               {"nominal_step", state.nominal},
                               {"external_work", totals.external_work},
                               {"stabilisation_energy", totals.ghost_work},
+                              {"fluid_inflow", totals.fluid_inflow},
+                              {"darcy_dissipation", totals.darcy_dissipation},
                               {"initial_energy", totals.initial_energy},
                               {"wall_time", wall_time()},
                               {"points_times_steps", totals.points_times_steps},
@@ -244,6 +246,8 @@ namespace kedge
                    data.counters.at("accepted_since_cut")});
     totals.external_work      = data.scalars.at("external_work");
     totals.ghost_work         = data.scalars.at("stabilisation_energy");
+    totals.fluid_inflow       = data.scalars.at("fluid_inflow");
+    totals.darcy_dissipation  = data.scalars.at("darcy_dissipation");
     totals.initial_energy     = data.scalars.at("initial_energy");
     totals.wall_before        = data.scalars.at("wall_time");
     totals.points_times_steps = data.scalars.at("points_times_steps");
@@ -262,7 +266,8 @@ namespace kedge
       std::make_unique<HistoryWriter>(folder, columns(), data.counters.at("history_position"));
     probes        = std::make_unique<ProbeWriter<dim>>(folder,
                                                 find_probes(),
-                                                data.counters.at("probes_position"));
+                                                data.counters.at("probes_position"),
+                                                engine.has_pores());
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output, n_points_written);
     if (scene.newton.log)
       newton_log = std::make_unique<NewtonLog>(folder, data.counters.at("newton_position"));
@@ -276,6 +281,8 @@ namespace kedge
     row.time                 = clock.time();
     row.external_work        = totals.external_work;
     row.stabilisation_energy = totals.ghost_work;
+    row.fluid_inflow         = totals.fluid_inflow;
+    row.darcy_dissipation    = totals.darcy_dissipation;
     engine.write_books(row);
     folder.log() << "kedge: goes on at t = " << clock.time() << " s, step " << clock.n_steps()
                  << std::endl;

@@ -38,13 +38,14 @@ namespace kedge
       return radius_of(scene);
     }
 
+    /** In saturated bodies the balance itself applies it, to a mass that changes. */
     template <int dim>
     std::vector<bool>
     bodies_with_body_force(const Scene<dim> &scene)
     {
       std::vector<bool> result;
       for (const auto &body : scene.bodies)
-        result.push_back(body.body_force);
+        result.push_back(body.body_force && !scene.pore_fluid);
       return result;
     }
 
@@ -108,13 +109,8 @@ namespace kedge
             scene.point_loads,
             scene.tractions,
             scene.constants)
-    , problem(InternalForce<dim>(material_of_body,
-                                 scheme.conserving_stress ? StressRule::conserving
-                                                          : StressRule::at_configuration,
-                                 scheme.alpha_f),
-              scheme,
-              scene.linear_solver,
-              body_names)
+    , surfaces(scene.surface_pressures, scene.constants)
+    , balance(make_balance())
   {
     for (const auto &body : scene.bodies)
       {
@@ -173,15 +169,20 @@ namespace kedge
       }
     if (new_pattern)
       ties.localise(nodes, conditions);
-    problem.reinit(background,
-                   nodes,
-                   conditions,
-                   ties,
-                   step_points,
-                   has_ghosts() ? ghosted_mass : mass,
-                   has_ghosts() ? &ghost_stiffness : nullptr,
-                   stiffness_radius,
-                   new_pattern);
+    balance->reinit(background,
+                    nodes,
+                    conditions,
+                    ties,
+                    step_points,
+                    has_ghosts() ? ghosted_mass : mass,
+                    has_ghosts() ? &ghost_stiffness : nullptr,
+                    stiffness_radius,
+                    new_pattern);
+    if (porous != nullptr)
+      {
+        porous->read_pores(cloud);
+        surfaces.reinit(cloud, step_points);
+      }
   }
 
 
@@ -231,12 +232,12 @@ namespace kedge
       nodal.displacement.assign(std::size_t(nodes.n_local()) * dim, 0.);
     }
 
-    problem.start(nodal, t, dt);
-    report.newton = solve_newton(problem, scene.newton);
+    balance->start(nodal, t, dt);
+    report.newton = solve_newton(*balance, scene.newton);
     report.cause  = report.newton.cause;
     if (!report.newton.converged)
       {
-        const std::string diagnosis = problem.diagnosis();
+        const std::string diagnosis = balance->diagnosis();
         if (!diagnosis.empty())
           report.cause += "; " + diagnosis;
         report.cause += hint_on_points(scene);
@@ -290,9 +291,10 @@ namespace kedge
   StepEngine<dim>::apply_external_forces(const double t)
   {
     nodal.external_force.assign(std::size_t(nodes.n_local()) * dim, 0.);
-    if (loads.empty())
+    if (loads.empty() && surfaces.empty())
       return;
     loads.force(step_points, t, point_forces);
+    surfaces.add_force(t, point_forces);
     const std::vector<double> ones(step_points.size(), 1.);
     add_to_nodes(step_points, background.window(), nodes, ones, point_forces, nodal.external_force);
     ties.restrict_sums(nodal.external_force);
@@ -313,6 +315,8 @@ namespace kedge
                                                        nodal.displacement,
                                                        updates);
     interpolate_to_points(step_points, window, nodes, nodal.displacement, point_displacements);
+    if (porous != nullptr)
+      porous->evaluate_updates(pore_updates);
 
     std::ostringstream cause;
     if (failed != PointStatus::none)
@@ -386,9 +390,9 @@ namespace kedge
   StepEngine<dim>::phase_times() const
   {
     auto result            = phases;
-    result["residual"]     = problem.timings().residual;
-    result["tangent"]      = problem.timings().tangent;
-    result["linear solve"] = problem.timings().linear_solve;
+    result["residual"]     = balance->timings().residual;
+    result["tangent"]      = balance->timings().tangent;
+    result["linear solve"] = balance->timings().linear_solve;
     return result;
   }
 } // namespace kedge

@@ -40,7 +40,10 @@ namespace kedge
         else
           points.insert(points.end(), of_body.begin(), of_body.end());
       }
+    if (has_pores())
+      saturate(points);
     loads.attach(points, body_names);
+    surfaces.attach(points, body_names);
 
     generated = std::vector<PointOrigin<dim>>(points.begin(), points.end());
     check_overlaps();
@@ -222,16 +225,19 @@ namespace kedge
   {
     const Stopwatch stopwatch(phases["history update"]);
     double          work = 0.;
-    if (!loads.empty())
+    if (!loads.empty() || !surfaces.empty())
       {
         // over the step a load does the work of its value in the middle
         loads.force(step_points, step_t + 0.5 * step_dt, point_forces);
+        surfaces.add_force(step_t + 0.5 * step_dt, point_forces);
         for (unsigned int slot = 0; slot < step_points.size(); ++slot)
           work += point_forces[slot] * point_displacements[slot];
       }
     step_work = dealii::Utilities::MPI::sum(work, communicator);
     if (conditions.any_moving())
-      step_work += problem.reaction_work();
+      step_work += balance->reaction_work();
+    if (porous != nullptr)
+      add_pore_work();
     if (has_ghosts())
       ghost_work = work_against_ghosts();
     if (std::any_of(scene.node_conditions.begin(),
@@ -239,7 +245,7 @@ namespace kedge
                     [](const auto &condition) {
                       return condition.reaction;
                     }))
-      reactions = problem.reactions();
+      reactions = balance->reactions();
 
     if (scheme.dynamic)
       map_velocities_back();
@@ -252,6 +258,8 @@ namespace kedge
         location += point_displacements[slot];
         state.displacement += point_displacements[slot];
         apply_point_update(updates[slot], state);
+        if (porous != nullptr)
+          apply_pore_update(pore_updates[slot], state);
         if (scheme.dynamic)
           update_velocities(slot, state);
       });
@@ -295,22 +303,37 @@ namespace kedge
 
   template <int dim>
   void
+  StepEngine<dim>::initialise_points(const double t)
+  {
+    if (porous != nullptr)
+      initialise_fluctuations();
+    if (scheme.carries_acceleration)
+      initialise_accelerations(t);
+  }
+
+
+
+  template <int dim>
+  void
   StepEngine<dim>::initialise_accelerations(const double t)
   {
-    if (!scheme.carries_acceleration)
-      return;
     activate();
     apply_external_forces(t);
-    const std::size_t         size = std::size_t(nodes.n_local()) * dim;
-    std::vector<double>       internal(size, 0.), at_nodes(size, 0.);
-    const std::vector<double> at_rest(size, 0.);
-    InternalForce<dim>(material_of_body, StressRule::at_configuration, 1.)
-      .add_force(step_points, background.window(), nodes, at_rest, internal);
-    ties.restrict_sums(internal);
-    nodes.add_to_owners(internal, dim);
-    std::vector<double> force(size);
-    for (std::size_t i = 0; i < size; ++i)
-      force[i] = nodal.external_force[i] - internal[i];
+    const std::size_t   size = std::size_t(nodes.n_local()) * dim;
+    std::vector<double> at_nodes(size, 0.), force(size, 0.);
+    if (porous != nullptr)
+      force = porous->unbalanced_force(nodal.external_force, t);
+    else
+      {
+        const std::vector<double> at_rest(size, 0.);
+        std::vector<double>       internal(size, 0.);
+        InternalForce<dim>(material_of_body, StressRule::at_configuration, 1.)
+          .add_force(step_points, background.window(), nodes, at_rest, internal);
+        ties.restrict_sums(internal);
+        nodes.add_to_owners(internal, dim);
+        for (std::size_t i = 0; i < size; ++i)
+          force[i] = nodal.external_force[i] - internal[i];
+      }
     const LinearStatus status =
       mapping.solve(background, nodes, ties, mapping_mass(), force, at_nodes);
     AssertThrow(status.success, dealii::ExcMessage("mass matrix: " + status.cause));
@@ -397,7 +420,9 @@ namespace kedge
     row.min_det_F      = dealii::Utilities::MPI::min(min_det, communicator);
     row.n_points       = cloud.n_global();
     row.n_active_cells = dealii::Utilities::MPI::sum(step_points.n_cells, communicator);
-    row.n_dofs         = problem.n_equations();
+    row.n_dofs         = balance->n_equations();
+    if (porous != nullptr)
+      write_pore_books(row);
   }
 
   template class StepEngine<2>;

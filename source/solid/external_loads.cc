@@ -151,6 +151,18 @@ namespace kedge
 
 
   template <int dim>
+  std::array<double, std::size_t(dim)>
+  ExternalLoads<dim>::body_acceleration(const double t) const
+  {
+    std::array<double, std::size_t(dim)> result;
+    for (int d = 0; d < dim; ++d)
+      result[d] = body_force[d]({t});
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   ExternalLoads<dim>::force(const StepPoints<dim>               &points,
                             const double                         t,
@@ -168,8 +180,12 @@ namespace kedge
     for (const auto &expressions : load_expressions)
       loads.push_back(evaluate<dim>(expressions, t));
     for (const unsigned int slot : points.loaded)
-      for (const Share &share : shares.at(points.id[slot]))
-        forces[slot] += share.factor * loads[share.load];
+      {
+        const auto found = shares.find(points.id[slot]);
+        if (found != shares.end()) // another thing may act on it
+          for (const Share &share : found->second)
+            forces[slot] += share.factor * loads[share.load];
+      }
   }
 
   template class ExternalLoads<2>;

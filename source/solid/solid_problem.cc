@@ -174,7 +174,7 @@ namespace kedge
       residual[i] = internal[i] + inertia[i] - state->external_force[i];
     MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, nodes->communicator());
 
-    Evaluation result;
+    NewtonProblem::Evaluation result;
     result.residual_norm = std::sqrt(sums[0]);
     result.scale =
       std::sqrt(sums[1]) + std::sqrt(sums[2]) + std::sqrt(sums[3]) + std::sqrt(sums[4]);

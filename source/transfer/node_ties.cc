@@ -255,6 +255,8 @@ namespace kedge
         for (int d = 0; d < dim; ++d)
           if (!conditions.prescribed(tie.node, d))
             tie.components |= 1u << d;
+        if (!conditions.pressure_prescribed(tie.node))
+          tie.components |= 1u << dim;
         tie_numbers[tie.node] = static_cast<int>(i);
       }
   }
@@ -263,16 +265,16 @@ namespace kedge
 
   template <int dim>
   void
-  NodeTies<dim>::prolong(std::vector<double> &nodal) const
+  NodeTies<dim>::prolong(std::vector<double> &nodal, const unsigned int n_components) const
   {
     for (const Tie &tie : local_ties)
-      for (int d = 0; d < dim; ++d)
+      for (unsigned int d = 0; d < n_components; ++d)
         if ((tie.components >> d) & 1u)
           {
             double value = 0.;
             for (unsigned int k = 0; k < tie.roots.size(); ++k)
-              value += tie.weights[k] * nodal[std::size_t(tie.roots[k]) * dim + d];
-            nodal[std::size_t(tie.node) * dim + d] = value;
+              value += tie.weights[k] * nodal[std::size_t(tie.roots[k]) * n_components + d];
+            nodal[std::size_t(tie.node) * n_components + d] = value;
           }
   }
 
@@ -280,15 +282,15 @@ namespace kedge
 
   template <int dim>
   void
-  NodeTies<dim>::restrict_sums(std::vector<double> &sums) const
+  NodeTies<dim>::restrict_sums(std::vector<double> &sums, const unsigned int n_components) const
   {
     for (const Tie &tie : local_ties)
-      for (int d = 0; d < dim; ++d)
+      for (unsigned int d = 0; d < n_components; ++d)
         if ((tie.components >> d) & 1u)
           {
-            double &value = sums[std::size_t(tie.node) * dim + d];
+            double &value = sums[std::size_t(tie.node) * n_components + d];
             for (unsigned int k = 0; k < tie.roots.size(); ++k)
-              sums[std::size_t(tie.roots[k]) * dim + d] += tie.weights[k] * value;
+              sums[std::size_t(tie.roots[k]) * n_components + d] += tie.weights[k] * value;
             value = 0.;
           }
   }

@@ -48,6 +48,17 @@ namespace kedge
       return increment(node, d, t0, t1) / (t1 - t0);
     }
 
+    /** True if the pore pressure of local node @p node is prescribed. */
+    bool
+    pressure_prescribed(const unsigned int node) const
+    {
+      return !pressure_condition_of.empty() && pressure_condition_of[node] >= 0;
+    }
+
+    /** The prescribed pore pressure of a node at time @p t [Pa]. */
+    double
+    pressure(const unsigned int node, const double t) const;
+
     bool
     any_moving() const
     {
@@ -78,6 +89,7 @@ namespace kedge
       unsigned int              side;
       std::optional<Expression> where;
       std::array<Motion, dim>   motions;
+      std::optional<Expression> pressure;
     };
 
     bool
@@ -88,8 +100,10 @@ namespace kedge
     std::vector<Condition>          conditions;
     std::vector<dealii::Point<dim>> place;        ///< of each local node; empty without motions
     std::vector<short>              condition_of; ///< of each local node and component, or -1
-    bool                            any_moving_ = false;
-    bool                            needs_place = false; ///< any motion
+    std::vector<short> pressure_condition_of; ///< of each local node, or -1; empty: no condition
+    bool               any_moving_  = false;
+    bool               any_pressure = false;
+    bool               needs_place  = false; ///< any motion or pressure
   };
 } // namespace kedge
 

@@ -57,6 +57,7 @@ namespace kedge
     std::string                         where;       ///< used if !on_side
     std::array<ComponentCondition, dim> components;
     bool                                reaction = false; ///< history.csv shows its force
+    std::string pore_pressure; ///< expression of x, y, z, t [Pa]; empty: no condition
   };
 } // namespace kedge
 

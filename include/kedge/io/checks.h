@@ -17,13 +17,14 @@ namespace kedge
   /**
    * Before the run: throws UserError with the nearest valid name if a check
    * asks for a column of history.csv, a probe, a probe's column or a point
-   * field that this run does not have.
+   * field that this run does not have. @p saturated as in ProbeWriter.
    */
   template <int dim>
   void
   verify_checks(const std::vector<CheckParameters> &checks,
                 const std::vector<std::string>     &history_columns,
-                const std::vector<std::string>     &probe_names);
+                const std::vector<std::string>     &probe_names,
+                const bool                          saturated = false);
 
   /**
    * The value of a column-wise statistic (all but point_error) over rows

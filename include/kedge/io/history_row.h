@@ -35,6 +35,14 @@ namespace kedge
     double angular_momentum[3] = {0, 0, 0}; ///< about the origin [kg m^2/s]
     double mass                = unset;     ///< [kg]
 
+    // saturated soil
+    double solid_mass        = 0; ///< [kg]
+    double fluid_mass        = 0; ///< [kg]
+    double fluid_inflow      = 0; ///< accumulated, through the surface [kg]
+    double fluid_energy      = 0; ///< of the compressed fluid [J]
+    double darcy_dissipation = 0; ///< accumulated [J]
+    double min_porosity      = unset; ///< of all points [-]
+
     std::vector<double> reactions; ///< of supports on the bodies, as HistoryColumns names them [N]
 
     std::uint64_t n_points       = 0;
@@ -46,7 +54,7 @@ namespace kedge
     double
     total_energy() const
     {
-      return kinetic_energy + strain_energy + hardening_energy;
+      return kinetic_energy + strain_energy + hardening_energy + fluid_energy;
     }
   };
 } // namespace kedge

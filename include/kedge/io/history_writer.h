@@ -18,6 +18,7 @@ namespace kedge
     unsigned int dim           = 2;
     bool         plasticity    = false; ///< hardening_energy, plastic_dissipation
     bool         stabilisation = false; ///< stabilisation_energy
+    bool         pores         = false; ///< fluid_energy, darcy_dissipation, the masses
 
     std::vector<std::string> reactions = {}; ///< reaction_NAME_x.., of HistoryRow::reactions
 

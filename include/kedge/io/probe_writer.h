@@ -26,7 +26,8 @@ namespace kedge
   /**
    * probes.csv: time, then of each probe NAME.position_x.., displacement,
    * velocity, cauchy_stress (all components, zz of plane strain too) and
-   * pressure. Written by rank 0; without probes there is no file.
+   * pressure; of saturated bodies pore_pressure, porosity and darcy_velocity
+   * too. Written by rank 0; without probes there is no file.
    *
    * Either hand over all local points, or only those for which tracks() says
    * yes:
@@ -52,7 +53,8 @@ namespace kedge
      */
     ProbeWriter(const RunFolder                    &folder,
                 const std::vector<Probe>           &probes,
-                const std::optional<std::uint64_t> &resume_at = {});
+                const std::optional<std::uint64_t> &resume_at = {},
+                const bool                          saturated = false);
 
     bool
     empty() const;
@@ -82,7 +84,7 @@ namespace kedge
 
     /** The columns after `time` of one probe, without its name: position_x .. pressure. */
     static std::vector<std::string>
-    quantity_names();
+    quantity_names(const bool saturated = false);
 
   private:
     struct Tracked
@@ -92,11 +94,12 @@ namespace kedge
       double        weight;
     };
 
-    MPI_Comm                 communicator;
-    std::vector<std::string> names;
-    std::vector<Tracked>     tracked; ///< sorted by id
-    std::vector<bool>        mask;    ///< by the low bits of the id
-    std::vector<double>      sums;    ///< per probe: the quantities, then the weight found
+    MPI_Comm                              communicator;
+    const std::vector<PointQuantity<dim>> all; ///< quantities of a probe
+    std::vector<std::string>              names;
+    std::vector<Tracked>                  tracked; ///< sorted by id
+    std::vector<bool>                     mask;    ///< by the low bits of the id
+    std::vector<double>      sums; ///< per probe: the quantities, then the weight found
     std::unique_ptr<CsvFile> file;
   };
 } // namespace kedge

@@ -49,6 +49,13 @@ namespace kedge
     double                          hardening_energy;    ///< per V0 [J/m^3]
     double                          plastic_dissipation; ///< accumulated, per V0 [J/m^3]
     double                          equivalent_plastic_strain; ///< alpha [-]
+    // saturated soil; 0 in dry bodies
+    double                 pore_pressure;             ///< p, positive in compression [Pa]
+    double                 pore_pressure_fluctuation; ///< (N - N^0) p of (4.179) [Pa]
+    double                 porosity;                  ///< n, pores over volume now [-]
+    double                 fluid_content_rate;        ///< m' per V0 [kg/m^3/s], if carried
+    double                 fluid_content_rate_change; ///< m'' per V0 [kg/m^3/s^2], if carried
+    dealii::Tensor<1, dim> darcy_velocity;            ///< fluid's volume per area and time [m/s]
   };
 
   template <int dim>

@@ -5,6 +5,11 @@
 
 namespace kedge
 {
+  /** The section Pore fluid. */
+  template <int dim>
+  SectionDeclaration
+  declare_pore_fluid(const ValuePatterns<dim> &allow);
+
   /** The sections of the method, which a user seldom needs: Newton to Stabilisation. */
   template <int dim>
   std::vector<SectionDeclaration>

@@ -5,6 +5,7 @@
 #include <kedge/io/parameters.h>
 #include <kedge/materials/parameters.h>
 #include <kedge/points/parameters.h>
+#include <kedge/porous/parameters.h>
 #include <kedge/solid/parameters.h>
 #include <kedge/solvers/parameters.h>
 #include <kedge/time_integration/parameters.h>
@@ -12,6 +13,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,8 @@ namespace kedge
     std::vector<NodeConditionParameters<dim>> node_conditions;
     std::vector<MaterialParameters>           materials;
     std::vector<BodyParameters<dim>>          bodies;
+    std::optional<PorousParameters>           pore_fluid; ///< saturates all bodies
+    std::vector<SurfacePressureParameters>    surface_pressures;
     std::array<std::string, dim>              body_force; ///< expressions of t [m/s^2]
     std::vector<PointLoadParameters<dim>>     point_loads;
     std::vector<TractionParameters<dim>>      tractions;

@@ -45,6 +45,8 @@ namespace kedge
     {
       double        external_work      = 0.;
       double        ghost_work         = 0.;
+      double        fluid_inflow       = 0.; ///< [kg]
+      double        darcy_dissipation  = 0.; ///< [J]
       double        initial_energy     = 0.;
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
       double        points_times_steps = 0.;
@@ -63,6 +65,9 @@ namespace kedge
     set_step();
     void
     finish_step(const StepReport &report);
+    /** Warns of the first point without pores; false if the run is to stop there. */
+    bool
+    watch_porosity();
     bool
     reject_step(const StepReport &report);
     void
@@ -98,6 +103,7 @@ namespace kedge
     Clock            clock;
     Totals           totals;
     HistoryRow       row;
+    bool             porosity_is_lost = false;
 
     std::unique_ptr<HistoryWriter>     history;
     std::unique_ptr<ProbeWriter<dim>>  probes;

@@ -2,6 +2,7 @@
 #define kedge_simulation_step_engine_h
 
 #include <kedge/io/history_row.h>
+#include <kedge/porous/porous_problem.h>
 #include <kedge/scene/scene.h>
 #include <kedge/solid/external_loads.h>
 #include <kedge/solid/point_update.h>
@@ -22,6 +23,14 @@ namespace kedge
     bool         hopeless = false; ///< a smaller step would not help
     std::string  cause;            ///< of a rejection
     NewtonReport newton;
+  };
+
+  /** What the pore fluid did in a step, beside what the points tell. */
+  struct PoreBooks
+  {
+    double inflow            = 0.; ///< of mass, through the surface [kg]
+    double darcy_dissipation = 0.; ///< [J]
+    double stabilisation     = 0.; ///< work of the pressure's stabilisation [J]
   };
 
   /**
@@ -66,11 +75,12 @@ namespace kedge
     cfl_step(const StepSizeKind kind);
 
     /**
-     * Gives the points the acceleration of equilibrium at the start,
-     * M a = f_ext(t) - f_int, for schemes that carry it (collective).
+     * Gives the points what only the grid can tell them: the fluctuation of
+     * their pore pressure and, for schemes that carry it, the acceleration of
+     * equilibrium at the start, M a = f_ext(t) - f_int (collective).
      */
     void
-    initialise_accelerations(const double t);
+    initialise_points(const double t);
 
     /** One attempt, from time @p t to @p t + @p dt. */
     StepReport
@@ -96,6 +106,13 @@ namespace kedge
     ghost_work_of_last_step() const
     {
       return ghost_work;
+    }
+
+    /** What fluid brought in through prescribed pressures and lost by flow, in that step. */
+    const PoreBooks &
+    pore_books_of_last_step() const
+    {
+      return pore_books;
     }
 
     /** Forces of the supports in the last accepted step: dim values per node condition [N]. */
@@ -147,6 +164,20 @@ namespace kedge
     void
     activate();
 
+    /** Whether the bodies are saturated with a pore fluid. */
+    bool
+    has_pores() const
+    {
+      return scene.pore_fluid.has_value();
+    }
+
+    /** Whether something of the step's balance is there for stability alone. */
+    bool
+    has_stabilisation() const
+    {
+      return has_ghosts() || (has_pores() && scene.pore_fluid->stabilisation > 0.);
+    }
+
     /** Whether a material of the scene can yield. */
     bool
     has_plasticity() const
@@ -157,20 +188,20 @@ namespace kedge
     std::uint64_t
     n_equations() const
     {
-      return problem.n_equations();
+      return balance->n_equations();
     }
 
     /** Worst condition estimate of a tangent so far; 0 if unknown. */
     double
     largest_condition() const
     {
-      return problem.largest_condition();
+      return balance->largest_condition();
     }
 
     std::string
     linear_method() const
     {
-      return problem.linear_method();
+      return balance->linear_method();
     }
 
     /** Time spent so far by this process, by phase. */
@@ -192,6 +223,20 @@ namespace kedge
     }
 
   private:
+    std::unique_ptr<Balance<dim>>
+    make_balance();
+    std::vector<Soil>
+    soils_of_bodies() const;
+    void
+    saturate(std::vector<GeneratedPoint<dim>> &points) const;
+    void
+    initialise_fluctuations();
+    void
+    initialise_accelerations(const double t);
+    void
+    add_pore_work();
+    void
+    write_pore_books(HistoryRow &row) const;
     std::vector<PointRecord<dim>>
     generate_records();
     void
@@ -239,21 +284,24 @@ namespace kedge
     const bool               with_history;    ///< of any material
     std::vector<std::string> body_names;
 
-    BackgroundGrid<dim>  background;
-    MaterialPoints<dim>  cloud;
-    StepPoints<dim>      step_points;
-    ActiveNodes<dim>     nodes;
-    NodeConditions<dim>  conditions;
-    NodeTies<dim>        ties;
-    ExternalLoads<dim>   loads;
-    NodeMatrix<dim>      mass;
-    GhostPenalty<dim>    ghosts;
-    NodeMatrix<dim>      ghost_mass, ghost_stiffness;
-    NodeMatrix<dim>      ghosted_mass; ///< mass and ghost mass
-    bool                 ghosts_in_mapping = false;
-    VelocityMapping<dim> mapping;
-    SolidProblem<dim>    problem;
-    NodalState           nodal;
+    BackgroundGrid<dim>   background;
+    MaterialPoints<dim>   cloud;
+    StepPoints<dim>       step_points;
+    ActiveNodes<dim>      nodes;
+    NodeConditions<dim>   conditions;
+    NodeTies<dim>         ties;
+    ExternalLoads<dim>    loads;
+    SurfacePressures<dim> surfaces;
+    NodeMatrix<dim>       mass;
+    GhostPenalty<dim>     ghosts;
+    NodeMatrix<dim>       ghost_mass, ghost_stiffness;
+    NodeMatrix<dim>       ghosted_mass; ///< mass and ghost mass
+    bool                  ghosts_in_mapping = false;
+    VelocityMapping<dim>  mapping;
+    NodalState            nodal;
+
+    PorousProblem<dim> *porous = nullptr; ///< the balance, if it is that of saturated soil
+    std::unique_ptr<Balance<dim>> balance;
 
     std::vector<PointOrigin<dim>>       generated;
     LatticeWindow<dim>                  covered;
@@ -267,6 +315,8 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> point_forces;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     std::vector<PointUpdate<dim>>       updates;
+    std::vector<PoreUpdate<dim>>        pore_updates;
+    PoreBooks                           pore_books;
     std::vector<dealii::Tensor<1, dim>> velocity_changes, accelerations;
     std::map<std::string, PhaseTime>    phases;
     std::optional<TransferAudit<dim>>   audit;

@@ -42,6 +42,10 @@ namespace kedge
     bool
     empty() const;
 
+    /** The acceleration of the body force at time @p t [m/s^2]. */
+    std::array<double, std::size_t(dim)>
+    body_acceleration(const double t) const;
+
     /** Force on each slot at time @p t [N]. */
     void
     force(const StepPoints<dim>               &points,

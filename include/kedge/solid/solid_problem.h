@@ -1,30 +1,13 @@
 #ifndef kedge_solid_solid_problem_h
 #define kedge_solid_solid_problem_h
 
-#include <kedge/base/stopwatch.h>
-#include <kedge/grid/node_conditions.h>
+#include <kedge/solid/balance.h>
 #include <kedge/solid/internal_force.h>
-#include <kedge/solvers/newton.h>
 #include <kedge/time_integration/scheme.h>
 #include <kedge/transfer/equation_system.h>
 
 namespace kedge
 {
-  /** The nodal quantities of a step, dim values per local node, ghosts up to date. */
-  struct NodalState
-  {
-    std::vector<double> velocity_n;     ///< v_n [m/s]
-    std::vector<double> acceleration_n; ///< a_n [m/s^2]; zero where the scheme carries none
-    std::vector<double> external_force; ///< f_ext at the scheme's load time [N], owned nodes
-    std::vector<double> displacement;   ///< u, the unknown: over the step [m]
-  };
-
-  /** Time spent in the parts of the Newton iteration. */
-  struct SolidTimings
-  {
-    PhaseTime residual, tangent, linear_solve;
-  };
-
   /**
    * The balance of momentum of one step (3.114), (3.148),
    *   r(u) = f_int(u) + alpha_f K_G u + M a_m(u) - f_ext = 0
@@ -34,7 +17,7 @@ namespace kedge
    * part of M.
    */
   template <int dim>
-  class SolidProblem : public NewtonProblem
+  class SolidProblem : public Balance<dim>
   {
   public:
     SolidProblem(const InternalForce<dim>       &internal_force,
@@ -42,12 +25,6 @@ namespace kedge
                  const LinearSolverParameters   &parameters,
                  const std::vector<std::string> &body_names);
 
-    /**
-     * Announces points, nodes and conditions of a step. The stiffness couples
-     * nodes up to @p stiffness_radius apart, no less than the mass does.
-     *
-     * @param ghost_stiffness K_G, acts alike on all components [N/m]; nullptr for none
-     */
     void
     reinit(const BackgroundGrid<dim> &grid,
            const ActiveNodes<dim>    &nodes,
@@ -57,16 +34,12 @@ namespace kedge
            const NodeMatrix<dim>     &mass,
            const NodeMatrix<dim>     *ghost_stiffness,
            const int                  stiffness_radius,
-           const bool                 new_pattern);
+           const bool                 new_pattern) override;
 
-    /**
-     * Starts a step from t_n of size dt. @p state.displacement is the first
-     * guess at the free components; the prescribed and tied ones are set here.
-     */
     void
-    start(NodalState &state, const double t_n, const double dt);
+    start(NodalState &state, const double t_n, const double dt) override;
 
-    Evaluation
+    NewtonProblem::Evaluation
     evaluate() override;
 
     void
@@ -81,45 +54,35 @@ namespace kedge
     void
     apply_correction(const double factor) override;
 
-    /** Work of the supports that move in this step, after convergence [J] (collective). */
     double
-    reaction_work() const;
+    reaction_work() const override;
 
-    /**
-     * The forces of the supports on the bodies in the balance of this step,
-     * after convergence [N]: dim values per node condition (collective).
-     */
     std::vector<double>
-    reactions() const;
+    reactions() const override;
 
-    /**
-     * Says where the tangent was singular, or nearly so, in this step; empty
-     * if nowhere (collective).
-     */
     std::string
-    diagnosis() const;
+    diagnosis() const override;
 
-    /** Worst condition estimate of a tangent so far; 0 if the linear solver gives none. */
     double
-    largest_condition() const
+    largest_condition() const override
     {
       return largest_condition_;
     }
 
     std::uint64_t
-    n_equations() const
+    n_equations() const override
     {
       return equations.system().n_global;
     }
 
     std::string
-    linear_method() const
+    linear_method() const override
     {
       return linear_solver.method();
     }
 
     const SolidTimings &
-    timings() const
+    timings() const override
     {
       return timings_;
     }

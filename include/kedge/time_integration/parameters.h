@@ -41,6 +41,7 @@ namespace kedge
     double              newmark_gamma      = 0.5;
     double              spectral_radius    = 0.818; ///< rho_infinity of generalised-alpha
     bool                carry_acceleration = true;  ///< false: the thesis's printed a_n = 0
+    double              pore_theta         = 0.5;   ///< PoreScheme::theta of the mid-point scheme
   };
 } // namespace kedge
 

@@ -26,7 +26,7 @@ namespace kedge
       unsigned int              node; ///< local number (window number before localise())
       std::vector<unsigned int> roots;
       std::vector<double>       weights;
-      unsigned int              components; ///< bit d: component d is tied (not prescribed)
+      unsigned int components; ///< bit d: component d is tied (not prescribed); dim: the pressure
     };
 
     /**
@@ -53,13 +53,16 @@ namespace kedge
       return changed_;
     }
 
-    /** v <- C v: gives tied nodes the value of their roots; all roots must be up to date. */
+    /**
+     * v <- C v: gives tied nodes the value of their roots; all roots must be up
+     * to date. Of @p n_components = dim + 1 the last one is the pore pressure.
+     */
     void
-    prolong(std::vector<double> &nodal) const;
+    prolong(std::vector<double> &nodal, const unsigned int n_components = dim) const;
 
     /** r <- C^T r for partial sums, before they are added to the owners. */
     void
-    restrict_sums(std::vector<double> &sums) const;
+    restrict_sums(std::vector<double> &sums, const unsigned int n_components = dim) const;
 
     /** The ties in local numbers. */
     const std::vector<Tie> &

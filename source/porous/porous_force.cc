@@ -1,0 +1,201 @@
+#include "surface_kernels.h"
+
+namespace kedge
+{
+  namespace
+  {
+    /** Calls run(context of a batch) for all batches until @p failed() is true. */
+    template <int dim, typename Run>
+    void
+    for_batches(const std::vector<Material> &materials,
+                const std::vector<Soil>     &soils,
+                const double                 alpha,
+                const PoreScheme            &scheme,
+                const StepPoints<dim>       &points,
+                const PorePoints<dim>       &pores,
+                const LatticeWindow<dim>    &window,
+                const ActiveNodes<dim>      &nodes,
+                const PorousTrial<dim>      &trial,
+                const Run                   &run)
+    {
+      for (const auto &batch : points.batches)
+        {
+          const Soil &soil = soils[batch.body];
+          PoreStep<dim>
+            step{soil, scheme, trial.dt, alpha, trial.inertia, 1. / trial.cell_size, {}};
+          for (int d = 0; d < dim && soil.has_body_force; ++d)
+            step.acceleration[d] = trial.body_force[d];
+          const bool goes_on = std::visit(
+            [&](const auto &material) {
+              using M = std::decay_t<decltype(material)>;
+              return run(internal::PorousBatch<dim, M>{points,
+                                                       pores,
+                                                       window,
+                                                       nodes,
+                                                       trial,
+                                                       batch,
+                                                       step,
+                                                       material});
+            },
+            materials[batch.body]);
+          if (!goes_on)
+            return;
+        }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  PorousForce<dim>::PorousForce(const std::vector<Material> &material_of_body,
+                                const std::vector<Soil>     &soil_of_body,
+                                const double                 alpha,
+                                const PoreScheme            &scheme)
+    : material_of_body(material_of_body)
+    , soil_of_body(soil_of_body)
+    , alpha(alpha)
+    , pore_scheme(scheme)
+  {}
+
+
+
+  template <int dim>
+  PointStatus
+  PorousForce<dim>::add_residual(const StepPoints<dim>    &points,
+                                 const PorePoints<dim>    &pores,
+                                 const LatticeWindow<dim> &window,
+                                 const ActiveNodes<dim>   &nodes,
+                                 const PorousTrial<dim>   &trial,
+                                 std::vector<double>      &residual,
+                                 std::vector<double>      &outflow,
+                                 PorousSize               &size) const
+  {
+    PointStatus status;
+    for_batches(material_of_body,
+                soil_of_body,
+                alpha,
+                pore_scheme,
+                points,
+                pores,
+                window,
+                nodes,
+                trial,
+                [&](const auto &batch) {
+                  using M = std::decay_t<decltype(batch.material)>;
+                  dispatch_pattern<dim>(
+                    batch.batch.pattern,
+                    internal::PorousResidualKernel<dim, M>{batch, residual, size, status});
+                  if (status.ok())
+                    internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
+                      dispatch_pattern<dim>(batch.batch.pattern,
+                                            internal::SurfaceResidualKernel<dim, M>{{batch, face},
+                                                                                    residual,
+                                                                                    outflow});
+                    });
+                  return status.ok();
+                });
+    return status;
+  }
+
+
+
+  template <int dim>
+  void
+  PorousForce<dim>::add_tangent(const StepPoints<dim>    &points,
+                                const PorePoints<dim>    &pores,
+                                const LatticeWindow<dim> &window,
+                                const ActiveNodes<dim>   &nodes,
+                                const PorousTrial<dim>   &trial,
+                                NodeMatrix<dim>          &tangent) const
+  {
+    for_batches(material_of_body,
+                soil_of_body,
+                alpha,
+                pore_scheme,
+                points,
+                pores,
+                window,
+                nodes,
+                trial,
+                [&](const auto &batch) {
+                  using M = std::decay_t<decltype(batch.material)>;
+                  dispatch_pattern<dim>(batch.batch.pattern,
+                                        internal::PorousTangentKernel<dim, M>{batch, tangent});
+                  internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
+                    dispatch_pattern<dim>(batch.batch.pattern,
+                                          internal::SurfaceTangentKernel<dim, M>{{batch, face},
+                                                                                 tangent});
+                  });
+                  return true;
+                });
+  }
+
+
+
+  template <int dim>
+  void
+  PorousForce<dim>::evaluate_updates(const StepPoints<dim>        &points,
+                                     const PorePoints<dim>        &pores,
+                                     const LatticeWindow<dim>     &window,
+                                     const ActiveNodes<dim>       &nodes,
+                                     const PorousTrial<dim>       &trial,
+                                     std::vector<PoreUpdate<dim>> &updates) const
+  {
+    updates.resize(points.size());
+    for_batches(material_of_body,
+                soil_of_body,
+                alpha,
+                pore_scheme,
+                points,
+                pores,
+                window,
+                nodes,
+                trial,
+                [&](const auto &batch) {
+                  using M = std::decay_t<decltype(batch.material)>;
+                  dispatch_pattern<dim>(batch.batch.pattern,
+                                        internal::PoreUpdateKernel<dim, M>{batch, updates});
+                  return true;
+                });
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  PorousForce<dim>::fluctuations(const StepPoints<dim>     &points,
+                                 const LatticeWindow<dim>  &window,
+                                 const ActiveNodes<dim>    &nodes,
+                                 const std::vector<double> &nodal_pressure)
+  {
+    std::vector<double> result(points.size());
+    for (const auto &batch : points.batches)
+      dispatch_pattern<dim>(
+        batch.pattern,
+        internal::FluctuationKernel<dim>{points, window, nodes, nodal_pressure, batch, result});
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  apply_pore_update(const PoreUpdate<dim> &update, PointState<dim> &state)
+  {
+    state.pore_pressure             = update.pressure;
+    state.pore_pressure_fluctuation = update.fluctuation;
+    state.porosity                  = update.porosity;
+    state.mass                      = update.mass;
+    state.fluid_content_rate        = update.content_rate;
+    state.fluid_content_rate_change = update.content_rate_change;
+    for (int d = 0; d < dim; ++d)
+      state.darcy_velocity[d] = update.darcy_velocity[d];
+  }
+
+  template class PorousForce<2>;
+  template class PorousForce<3>;
+  template void
+  apply_pore_update(const PoreUpdate<2> &, PointState<2> &);
+  template void
+  apply_pore_update(const PoreUpdate<3> &, PointState<3> &);
+} // namespace kedge

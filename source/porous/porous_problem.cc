@@ -1,0 +1,489 @@
+#include <kedge/porous/porous_problem.h>
+#include <kedge/transfer/node_sums.h>
+
+#include <iomanip>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Raises the scaled diagonal of a singular tangent; Newton's residual stays exact. */
+    constexpr double singular_shift = 1e-10;
+
+    /** A tangent worse than this may be why Newton's method fails. */
+    constexpr double suspicious_condition = 1e12;
+
+    /** The multigrid of the solid knows nothing of pressures. */
+    LinearSolverParameters
+    for_mixed_unknowns(LinearSolverParameters parameters, const int dim)
+    {
+      if (parameters.kind == LinearSolverKind::automatic && dim == 3)
+        parameters.kind = LinearSolverKind::direct;
+      return parameters;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  PorousProblem<dim>::PorousProblem(const PorousForce<dim>         &force,
+                                    const ExternalLoads<dim>       &loads,
+                                    const SurfacePressures<dim>    &surfaces,
+                                    const double                    surface_penalty,
+                                    const Scheme                   &scheme,
+                                    const LinearSolverParameters   &parameters,
+                                    const double                    p_wave_modulus,
+                                    const std::vector<std::string> &body_names)
+    : porous_force(force)
+    , loads(loads)
+    , surfaces(surfaces)
+    , surface_penalty(surface_penalty)
+    , scheme(scheme)
+    , modulus(p_wave_modulus)
+    , body_names(body_names)
+    , linear_solver(for_mixed_unknowns(parameters, dim), {dim, false, false})
+  {}
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::reinit(const BackgroundGrid<dim> &grid,
+                             const ActiveNodes<dim>    &nodes,
+                             const NodeConditions<dim> &conditions,
+                             const NodeTies<dim>       &ties,
+                             const StepPoints<dim>     &points,
+                             const NodeMatrix<dim> &,
+                             const NodeMatrix<dim> *,
+                             const int  stiffness_radius,
+                             const bool new_pattern)
+  {
+    this->grid       = &grid;
+    this->nodes      = &nodes;
+    this->conditions = &conditions;
+    this->ties       = &ties;
+    this->points     = &points;
+    cell_size        = grid.lattice().smallest_cell_size();
+    if (!new_pattern)
+      return;
+    constexpr int n = dim + 1;
+    tangent.reinit(nodes.n_local(), n, stiffness_radius);
+    status.resize(std::size_t(nodes.n_local()) * n);
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      for (int c = 0; c < n; ++c)
+        {
+          const bool prescribed =
+            c < dim ? conditions.prescribed(i, c) : conditions.pressure_prescribed(i);
+          status[std::size_t(i) * n + c] = prescribed            ? NodalStatus::prescribed
+                                           : ties.tie_of(i) >= 0 ? NodalStatus::tied
+                                                                 : NodalStatus::free;
+        }
+    equations.reinit(grid, nodes, ties, status, tangent);
+    linear_solver.pattern_changed();
+  }
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::read_pores(const MaterialPoints<dim> &cloud)
+  {
+    pores.reinit(cloud, *points, porous_force.scheme());
+  }
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::start(NodalState &state, const double t_n, const double dt)
+  {
+    this->state = &state;
+    this->t_n   = t_n;
+    this->dt    = dt;
+    warning_.clear();
+    condition        = 0.;
+    weakest_equation = -1;
+    unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
+    residual.resize(unknowns.size());
+    outflow.resize(surfaces.pressures(t_n).size());
+    acceleration.resize(scheme.dynamic ? std::size_t(nodes->n_local()) * dim : 0);
+    guess_pressure();
+    set_prescribed();
+  }
+
+
+
+  /** The points' pressures, averaged over their volumes (4.181); only Newton starts from it. */
+  template <int dim>
+  void
+  PorousProblem<dim>::guess_pressure()
+  {
+    std::vector<double> at_points(2 * std::size_t(points->size()));
+    for (unsigned int slot = 0; slot < points->size(); ++slot)
+      {
+        const double volume                  = points->volume[slot] * points->determinant[slot];
+        at_points[2 * std::size_t(slot)]     = volume;
+        at_points[2 * std::size_t(slot) + 1] = volume * pores.pressure[slot];
+      }
+    std::vector<double> sums(2 * std::size_t(nodes->n_local()), 0.);
+    add_scalars_to_nodes(*points, grid->window(), *nodes, at_points, 2, sums);
+    nodes->add_to_owners(sums, 2);
+    nodes->update_ghosts(sums, 2);
+    for (unsigned int i = 0; i < nodes->n_local(); ++i)
+      unknowns[std::size_t(i) * (dim + 1) + dim] =
+        sums[2 * i] > 0. ? sums[2 * i + 1] / sums[2 * i] : 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::set_prescribed()
+  {
+    const double theta = porous_force.scheme().theta;
+    for (unsigned int i = 0; i < nodes->n_local(); ++i)
+      {
+        double *x = &unknowns[std::size_t(i) * (dim + 1)];
+        for (int d = 0; d < dim; ++d)
+          if (conditions->prescribed(i, d))
+            x[d] = conditions->increment(i, d, t_n, t_n + dt);
+        if (conditions->pressure_prescribed(i))
+          x[dim] = conditions->pressure(i, t_n + theta * dt);
+      }
+    ties->prolong(unknowns, dim + 1);
+    copy_displacement();
+  }
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::copy_displacement()
+  {
+    for (unsigned int i = 0; i < nodes->n_local(); ++i)
+      std::copy_n(&unknowns[std::size_t(i) * (dim + 1)],
+                  dim,
+                  &state->displacement[std::size_t(i) * dim]);
+  }
+
+
+
+  template <int dim>
+  PorousTrial<dim>
+  PorousProblem<dim>::trial_at(const std::vector<double> &accelerations,
+                               const double               inertia,
+                               const double               step,
+                               const double               t_load,
+                               const double               t_pressure) const
+  {
+    return {unknowns,
+            accelerations,
+            inertia,
+            step,
+            cell_size,
+            loads.body_acceleration(t_load),
+            surfaces.points(),
+            surfaces.pressures(t_pressure),
+            surface_penalty};
+  }
+
+
+
+  template <int dim>
+  PorousTrial<dim>
+  PorousProblem<dim>::trial() const
+  {
+    return trial_at(acceleration,
+                    scheme.dynamic ? scheme.inertia_coefficient(dt) : 0.,
+                    dt,
+                    scheme.load_time(t_n, dt),
+                    t_n + porous_force.scheme().theta * dt);
+  }
+
+
+
+  /** Of an equation, in Newton's norm of residuals; its inverse weighs corrections. */
+  template <int dim>
+  double
+  PorousProblem<dim>::weight(const unsigned int nodal_index) const
+  {
+    return nodal_index % (dim + 1) == dim ? modulus / cell_size : 1.;
+  }
+
+
+
+  template <int dim>
+  NewtonProblem::Evaluation
+  PorousProblem<dim>::evaluate()
+  {
+    const Stopwatch stopwatch(timings_.residual);
+    for (std::size_t k = 0; k < acceleration.size(); ++k)
+      acceleration[k] = scheme.equilibrium_acceleration(state->displacement[k],
+                                                        state->velocity_n[k],
+                                                        state->acceleration_n[k],
+                                                        dt);
+    std::fill(residual.begin(), residual.end(), 0.);
+    std::fill(outflow.begin(), outflow.end(), 0.);
+    PorousSize        size;
+    const PointStatus answer =
+      porous_force
+        .add_residual(*points, pores, grid->window(), *nodes, trial(), residual, outflow, size);
+    ties->restrict_sums(residual, dim + 1);
+    nodes->add_to_owners(residual, dim + 1);
+    double external = 0.;
+    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        {
+          const double f = state->external_force[std::size_t(i) * dim + d];
+          residual[std::size_t(i) * (dim + 1) + d] -= f;
+          external += f * f;
+        }
+
+    double sums[5] = {0., size.momentum, size.fluid, external, answer.ok() ? 0. : 1.};
+    for (unsigned int e = 0; e < equations.system().n_rows(); ++e)
+      {
+        const unsigned int k = equations.nodal_index(e);
+        sums[0] += std::pow(weight(k) * residual[k], 2);
+      }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, nodes->communicator());
+
+    NewtonProblem::Evaluation result;
+    result.residual_norm = std::sqrt(sums[0]);
+    result.scale =
+      std::sqrt(sums[1]) + modulus / cell_size * std::sqrt(sums[2]) + std::sqrt(sums[3]);
+    result.ok = sums[4] == 0. && std::isfinite(sums[0]);
+    if (sums[4] > 0.)
+      result.cause = answer.ok() ? "a material point of another rank cannot follow the trial step"
+                                 : describe_point(answer.failed_slot);
+    else if (!result.ok)
+      result.cause = "the residual is not finite";
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::assemble_tangent()
+  {
+    const Stopwatch stopwatch(timings_.tangent);
+    tangent.set_zero();
+    porous_force.add_tangent(*points, pores, grid->window(), *nodes, trial(), tangent);
+    equations.fill(*nodes, tangent);
+  }
+
+
+
+  template <int dim>
+  LinearStatus
+  PorousProblem<dim>::solve_correction(double &norm, const bool keep_tangent)
+  {
+    if (!keep_tangent)
+      assemble_tangent();
+
+    const Stopwatch     stopwatch(timings_.linear_solve);
+    std::vector<double> right_side, solution;
+    equations.gather(residual, right_side);
+    for (double &value : right_side)
+      value = -value;
+    LinearStatus answer;
+    if (!keep_tangent)
+      answer = linear_solver.factorise(equations.system());
+    if (!answer.success && answer.equation >= 0)
+      {
+        // barely held nodes: what nothing determines stays where it is
+        warning_ = answer.cause + describe_equation(answer.equation);
+        answer   = linear_solver.factorise(equations.system(), singular_shift);
+      }
+    else if (!keep_tangent && answer.condition_estimate > condition)
+      {
+        condition          = answer.condition_estimate;
+        weakest_equation   = answer.weakest_equation;
+        largest_condition_ = std::max(largest_condition_, condition);
+      }
+    if (answer.success)
+      answer = linear_solver.solve(right_side, solution);
+    if (!answer.success)
+      return answer;
+    equations.scatter(solution, correction);
+    nodes->update_ghosts(correction, dim + 1);
+    ties->prolong(correction, dim + 1);
+    double square = 0.;
+    for (unsigned int e = 0; e < solution.size(); ++e)
+      square += std::pow(solution[e] / weight(equations.nodal_index(e)), 2);
+    norm = std::sqrt(dealii::Utilities::MPI::sum(square, nodes->communicator()));
+    return answer;
+  }
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::apply_correction(const double factor)
+  {
+    for (std::size_t k = 0; k < correction.size(); ++k)
+      unknowns[k] += factor * correction[k];
+    copy_displacement();
+  }
+
+
+
+  template <int dim>
+  double
+  PorousProblem<dim>::reaction_work() const
+  {
+    double work = 0.;
+    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (conditions->prescribed(i, d))
+          work += residual[std::size_t(i) * (dim + 1) + d] *
+                  state->displacement[std::size_t(i) * dim + d];
+    return dealii::Utilities::MPI::sum(work, nodes->communicator());
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  PorousProblem<dim>::reactions() const
+  {
+    std::vector<double> forces(std::size_t(conditions->size()) * dim, 0.);
+    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (conditions->prescribed(i, d))
+          forces[conditions->condition(i, d) * dim + d] += residual[std::size_t(i) * (dim + 1) + d];
+    dealii::Utilities::MPI::sum(forces, nodes->communicator(), forces);
+    return forces;
+  }
+
+
+
+  template <int dim>
+  void
+  PorousProblem<dim>::evaluate_updates(std::vector<PoreUpdate<dim>> &updates) const
+  {
+    porous_force.evaluate_updates(*points, pores, grid->window(), *nodes, trial(), updates);
+  }
+
+
+
+  template <int dim>
+  FluidInflow
+  PorousProblem<dim>::inflow() const
+  {
+    const PoreFluid &fluid  = porous_force.soils().front().fluid;
+    double           sum[2] = {0., 0.};
+    const auto       add    = [&](const double mass, const double pressure) {
+      sum[0] += mass;
+      // mu = K_f/rho_0 (1 - rho_0/rho_f), (4.112)
+      sum[1] -= mass * fluid.bulk_modulus / fluid.reference_density *
+                std::expm1(-pressure / fluid.bulk_modulus);
+    };
+    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
+      if (conditions->pressure_prescribed(i))
+        {
+          const std::size_t k = std::size_t(i) * (dim + 1) + dim;
+          add(fluid.reference_density * residual[k], unknowns[k]);
+        }
+    const auto pressures = surfaces.pressures(t_n + porous_force.scheme().theta * dt);
+    for (unsigned int s = 0; s < outflow.size(); ++s)
+      add(-fluid.reference_density * outflow[s], pressures[s]);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, nodes->communicator());
+    return {sum[0], sum[1]};
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  PorousProblem<dim>::unbalanced_force(const std::vector<double> &external_force, const double t)
+  {
+    unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
+    residual.assign(unknowns.size(), 0.);
+    guess_pressure();
+    outflow.assign(surfaces.pressures(t).size(), 0.);
+    const std::vector<double> at_rest;
+    PorousSize                size;
+    porous_force.add_residual(*points,
+                              pores,
+                              grid->window(),
+                              *nodes,
+                              trial_at(at_rest, 0., 1., t, t),
+                              residual,
+                              outflow,
+                              size);
+    ties->restrict_sums(residual, dim + 1);
+    nodes->add_to_owners(residual, dim + 1);
+    std::vector<double> forces(external_force);
+    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        forces[std::size_t(i) * dim + d] -= residual[std::size_t(i) * (dim + 1) + d];
+    return forces;
+  }
+
+
+
+  template <int dim>
+  std::string
+  PorousProblem<dim>::diagnosis() const
+  {
+    if (!warning_.empty() || condition < suspicious_condition)
+      return warning_;
+    std::ostringstream text;
+    text << std::scientific << std::setprecision(0) << "the tangent is nearly singular (condition "
+         << condition << ")" << describe_equation(weakest_equation);
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  PorousProblem<dim>::describe_point(const unsigned int slot) const
+  {
+    std::ostringstream text;
+    unsigned int       body = 0;
+    for (const auto &batch : points->batches)
+      if (slot >= batch.begin && slot < batch.end)
+        body = batch.body;
+    text << "material point " << points->id[slot] << " of body '" << body_names[body] << "' at ("
+         << points->location[slot] << ") has det F <= 0 or no finite stress";
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::string
+  PorousProblem<dim>::describe_equation(const std::int64_t equation) const
+  {
+    if (equation < 0)
+      return "";
+    const SparseSystem &system         = equations.system();
+    double              place[dim + 2] = {};
+    if (equation >= system.first_row && equation < system.first_row + system.n_rows())
+      {
+        const unsigned int k =
+          equations.nodal_index(static_cast<unsigned int>(equation - system.first_row));
+        const auto x = grid->lattice().node_position(
+          grid->window().node_index(nodes->window_node(k / (dim + 1))));
+        for (int d = 0; d < dim; ++d)
+          place[d] = x[d];
+        place[dim] = k % (dim + 1);
+      }
+    MPI_Allreduce(MPI_IN_PLACE, place, dim + 2, MPI_DOUBLE, MPI_SUM, nodes->communicator());
+    const int          component = static_cast<int>(place[dim]);
+    std::ostringstream text;
+    text << ": nothing holds the "
+         << (component == dim ? std::string("pore pressure")
+                              : std::string("displacement component ") + "xyz"[component])
+         << " of the node at (";
+    for (int d = 0; d < dim; ++d)
+      text << (d > 0 ? ", " : "") << place[d];
+    text << "), in the cells around it the body is too thin or too loosely held";
+    return text.str();
+  }
+
+  template class PorousProblem<2>;
+  template class PorousProblem<3>;
+} // namespace kedge

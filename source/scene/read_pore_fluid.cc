@@ -1,0 +1,115 @@
+#include <kedge/scene/cross_checks.h>
+#include <kedge/scene/read_pore_fluid.h>
+#include <kedge/scene/values.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Refuses pressures in a scene without a fluid. */
+    template <int dim>
+    void
+    check_dry(const ParameterReader &reader, const Scene<dim> &scene)
+    {
+      for (const auto &condition : scene.node_conditions)
+        if (!condition.pore_pressure.empty())
+          throw SectionReader(reader, {"Node conditions", condition.name})
+            .error("Pore pressure", "The bodies are dry: give Pore fluid/Density.");
+      for (const std::string &name : reader.names("Surface pressures"))
+        throw SectionReader(reader, {"Surface pressures", name})
+          .error("Pressure", "The bodies are dry: give Pore fluid/Density.");
+    }
+
+    /** Refuses what the u-p balance does not have. */
+    template <int dim>
+    void
+    check_saturated(const ParameterReader &reader, const Scene<dim> &scene)
+    {
+      const SchemeKind scheme = scene.time.scheme;
+      if (scheme != SchemeKind::quasi_static && scheme != SchemeKind::newmark &&
+          scheme != SchemeKind::trapezoidal && scheme != SchemeKind::midpoint)
+        throw SectionReader(reader, {"Time"})
+          .error("Scheme",
+                 "Saturated bodies (Pore fluid) go with quasi-static, newmark, trapezoidal and "
+                 "midpoint.");
+      if (scene.time.step_kind != StepSizeKind::fixed)
+        throw SectionReader(reader, {"Time"})
+          .error("Step", "Saturated bodies (Pore fluid) need a fixed step.");
+      for (const auto &material : scene.materials)
+        if (material.volume_change != VolumeChange::pointwise)
+          throw SectionReader(reader, {"Materials", material.name})
+            .error("Volume change", "In saturated bodies (Pore fluid) it must be pointwise.");
+      if (scene.stabilisation.method == StabilisationKind::ghost)
+        throw SectionReader(reader, {"Stabilisation"})
+          .error("Method", "Saturated bodies (Pore fluid) go with aggregation and none.");
+      if (scene.transfer.lumping > 0.)
+        throw SectionReader(reader, {"Mapping"})
+          .error("Lumping", "In saturated bodies (Pore fluid) the mass matrix must be consistent.");
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::optional<PorousParameters>
+  read_pore_fluid(const ParameterReader &reader, const Scene<dim> &scene)
+  {
+    const SectionReader section(reader, {"Pore fluid"});
+    if (section.is_empty("Density"))
+      {
+        for (const char *entry : {"Initial porosity", "Hydraulic conductivity"})
+          if (!section.is_empty(entry))
+            throw section.error(entry, "Without a Density there is no pore fluid.");
+        check_dry(reader, scene);
+        return {};
+      }
+    for (const char *entry : {"Initial porosity", "Hydraulic conductivity"})
+      if (section.is_empty(entry))
+        throw section.error(entry, "It must be given where there is a pore fluid.");
+    check_saturated(reader, scene);
+
+    PorousParameters result;
+    result.fluid.fluid_density          = section.number("Density");
+    result.fluid.fluid_bulk_modulus     = section.number("Bulk modulus");
+    result.fluid.initial_porosity       = section.number("Initial porosity");
+    result.fluid.hydraulic_conductivity = section.number("Hydraulic conductivity");
+    result.fluid.kozeny_carman          = section.text("Conductivity law") == "kozeny-carman";
+    result.fluid.reference_gravity      = section.number("Reference gravity");
+    result.fluid.porosity_watch =
+      section.text("Lost porosity") == "stop" ? PorosityWatch::stop : PorosityWatch::warn;
+    result.stabilisation   = section.number("Stabilisation");
+    result.surface_penalty = section.number("Surface penalty");
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<SurfacePressureParameters>
+  read_surface_pressures(const ParameterReader &reader)
+  {
+    std::vector<SurfacePressureParameters> result;
+    for (const std::string &name : reader.names("Surface pressures"))
+      {
+        const SectionReader section(reader, {"Surface pressures", name});
+        find_name(reader, section, "Body", "Bodies");
+        result.push_back({name,
+                          section.text("Body"),
+                          parse_side<dim>(section.text("Side")),
+                          section.text("Where"),
+                          section.text("Pressure")});
+      }
+    return result;
+  }
+
+
+
+  template std::vector<SurfacePressureParameters>
+  read_surface_pressures<2>(const ParameterReader &);
+  template std::vector<SurfacePressureParameters>
+  read_surface_pressures<3>(const ParameterReader &);
+  template std::optional<PorousParameters>
+  read_pore_fluid<2>(const ParameterReader &, const Scene<2> &);
+  template std::optional<PorousParameters>
+  read_pore_fluid<3>(const ParameterReader &, const Scene<3> &);
+} // namespace kedge
