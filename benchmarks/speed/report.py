@@ -1,0 +1,122 @@
+"""Tables: CSV, Markdown, and the generated parts of doc/benchmarks.md."""
+import csv
+import math
+import re
+import shutil
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENT = ROOT / "doc" / "benchmarks.md"
+PICTURES = ROOT / "doc" / "pictures" / "benchmarks"
+
+# The columns of the tables, with what stands above them.
+HEADS = {"variant": "", "method": "method", "label": "run", "points": "points",
+         "unknowns": "unknowns", "newton": "iterations", "user_s": "CPU [s]",
+         "wall_s": "wall [s]", "memory_MB": "memory [MB]", "us": "us per point and iteration",
+         "other_user_s": "other CPU [s]", "ratio": "this/other"}
+
+
+def write_csv(rows, path):
+    """All rows; a column that only some of them have is empty in the others."""
+    columns = list(dict.fromkeys(name for row in rows for name in row))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def read_csv(path):
+    """Rows as dictionaries of texts."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def number(value):
+    """A number as a table shows it: three digits."""
+    if isinstance(value, str) or value is None:
+        return value or ""
+    if isinstance(value, int) or (value == int(value) and abs(value) < 1e7):
+        return str(int(value))
+    if value != value or math.isinf(value):
+        return str(value)
+    digits = max(0, 2 - math.floor(math.log10(abs(value))))
+    return f"{value:.{digits}f}" if 1e-3 <= abs(value) < 1e7 else f"{value:.1e}"
+
+
+def markdown(rows, heads):
+    """A Markdown table of some columns, those without any entry left out."""
+    names = [name for name in heads if any(row.get(name, "") != "" for row in rows)]
+    lines = ["| " + " | ".join(heads[name] for name in names) + " |", "|" + "---|" * len(names)]
+    lines += ["| " + " | ".join(number(row.get(name, "")) for name in names) + " |"
+              for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def suite_table(rows, problem, measures):
+    """The table of one problem."""
+    heads = dict(HEADS)
+    for measure in measures:
+        heads[measure] = f"{measure} error"
+    return markdown([row for row in rows if row["problem"] == problem], heads)
+
+
+def rival_table(rivals, problem):
+    """What rivals needed for the problem."""
+    def span(pair):
+        return number(pair[0]) if pair[0] == pair[1] else f"{number(pair[0])} to {number(pair[1])}"
+
+    rows = [{"variant": rival.variant, "rival": rival.name, "label": rival.label,
+             "time": span(rival.time), "measure": rival.measure, "error": span(rival.error),
+             "source": rival.source} for rival in rivals if rival.problem == problem]
+    return markdown(rows, {"variant": "", "rival": "program", "label": "run",
+                           "time": "CPU [s]", "measure": "measure", "error": "error",
+                           "source": "source"}) if rows else ""
+
+
+def equal_error(rows, rivals):
+    """For each rival's run the cheapest of kedge's and of the elements' that is no worse."""
+    def cheapest(rival, finite_element):
+        times = [(row["user_s"], f"{row['method']} {row['label']}") for row in rows
+                 if (row["problem"], row["variant"]) == (rival.problem, rival.variant)
+                 and row["method"].startswith("FEM") == finite_element
+                 and row.get(rival.measure, "") != "" and row[rival.measure] <= rival.error[1]]
+        return min(times) if times else None
+
+    table = []
+    for rival in rivals:
+        own, elements = cheapest(rival, False), cheapest(rival, True)
+        row = {"problem": rival.problem, "variant": rival.variant, "rival": rival.name,
+               "label": rival.label, "measure": rival.measure, "error": rival.error[1],
+               "time": rival.time[0] if rival.time[0] == rival.time[1]
+               else f"{number(rival.time[0])} to {number(rival.time[1])}"}
+        if own:
+            row.update(kedge=own[0], run=own[1], gain=rival.time[0] / own[0]
+                       if rival.time[0] == rival.time[1] else
+                       f"{number(rival.time[0] / own[0])} to {number(rival.time[1] / own[0])}")
+        if elements:
+            row["fem"] = elements[0]
+        table.append(row)
+    return markdown(table, {"problem": "problem", "variant": "", "rival": "program",
+                            "label": "its run", "measure": "measure", "error": "its error",
+                            "time": "its CPU [s]", "kedge": "kedge [s]", "run": "kedge's run",
+                            "gain": "times faster", "fem": "FEM [s]"})
+
+
+def replace_part(name, text):
+    """Puts `text` between the marks `begin NAME` and `end NAME` of doc/benchmarks.md."""
+    begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
+    document = DOCUMENT.read_text(encoding="utf-8")
+    if begin not in document:
+        raise KeyError(f"{DOCUMENT} has no part '{name}'")
+    pattern = re.escape(begin) + ".*?" + re.escape(end)
+    DOCUMENT.write_text(re.sub(pattern, lambda _: f"{begin}\n{text}{end}", document, flags=re.S),
+                        encoding="utf-8")
+
+
+def keep_pictures(folder, names):
+    """Copies pictures to where the document shows them."""
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        for kind in ("png", "svg"):
+            shutil.copyfile(folder / f"{name}.{kind}", PICTURES / f"{name}.{kind}")
