@@ -35,7 +35,9 @@ namespace finite_element
       prm.declare_entry("Fixed x", "0", Anything(), "Where, an expression of x, y");
       prm.declare_entry("Fixed y", "0", Anything(), "Where, an expression of x, y");
       prm.declare_entry("Body force", "0; 0", Anything(), "Of t [m/s^2]");
-      prm.declare_entry("End load", "0; 0", Anything(),
+      prm.declare_entry("End load",
+                        "0; 0",
+                        Anything(),
                         "Whole dead load, spread over the right side, of t [N/m]");
       prm.declare_entry("Initial velocity", "0; 0", Anything(), "Of x, y [m/s]");
       prm.declare_entry("Scheme", "clc-midpoint", Anything(), "As kedge's Time/Scheme");

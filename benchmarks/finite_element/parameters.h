@@ -26,20 +26,20 @@ namespace finite_element
   /** A rectangular body and what happens to it; SI units, per metre of thickness. */
   struct Parameters
   {
-    dealii::Point<dim>         origin, extent;
-    std::vector<unsigned int>  cells;
-    unsigned int               degree = 1;
-    kedge::MaterialParameters  material;
-    kedge::Expression          fixed[dim];            ///< of x, y: where a component is fixed
-    kedge::Expression          acceleration[dim];     ///< of t [m/s^2]
-    kedge::Expression          end_load[dim];         ///< of t, on the right side [N/m]
-    kedge::Expression          initial_velocity[dim]; ///< of x, y [m/s]
-    kedge::TimeParameters      time;
-    kedge::NewtonParameters    newton;
+    dealii::Point<dim>           origin, extent;
+    std::vector<unsigned int>    cells;
+    unsigned int                 degree = 1;
+    kedge::MaterialParameters    material;
+    kedge::Expression            fixed[dim];            ///< of x, y: where a component is fixed
+    kedge::Expression            acceleration[dim];     ///< of t [m/s^2]
+    kedge::Expression            end_load[dim];         ///< of t, on the right side [N/m]
+    kedge::Expression            initial_velocity[dim]; ///< of x, y [m/s]
+    kedge::TimeParameters        time;
+    kedge::NewtonParameters      newton;
     std::vector<ProbeParameters> probes;
-    bool                       has_exact_stress = false;
-    kedge::Expression          exact_stress; ///< Cauchy stress yy of x, y at the end [Pa]
-    double                     stress_scale = 1.;
+    bool                         has_exact_stress = false;
+    kedge::Expression            exact_stress; ///< Cauchy stress yy of x, y at the end [Pa]
+    double                       stress_scale = 1.;
   };
 
   /** What the program is told on the command line. */

@@ -183,17 +183,17 @@ namespace finite_element
         const Tensor<2, dim> to_present = transpose(invert(point.state.deformation_gradient));
         for (std::size_t A = 0; A < point.gradient.size(); ++A)
           point.gradient_n[A] = to_present * point.gradient[A];
-        point.stress_state =
-          kedge::make_stress_state<dim>(point.state.elastic_frame,
-                                        point.state.out_of_plane_elastic_stretch,
-                                        point.state.deformation_gradient,
-                                        point.state.kirchhoff_stress);
+        point.stress_state = kedge::make_stress_state<dim>(point.state.elastic_frame,
+                                                           point.state.out_of_plane_elastic_stretch,
+                                                           point.state.deformation_gradient,
+                                                           point.state.kirchhoff_stress);
       }
   }
 
 
 
-  /** Calls run(dofs of the cell, its displacements over the step, its first point, its last + 1). */
+  /** Calls run(dofs of the cell, its displacements over the step, its first point, its last + 1).
+   */
   template <class Run>
   void
   Solid::for_each_cell(const Run &run) const
@@ -237,9 +237,17 @@ namespace finite_element
     const kedge::MaterialHistory history{point.state.equivalent_plastic_strain};
     if (scheme.conserving_stress)
       return kedge::evaluate_force_stress<dim, with_tangent, kedge::StressRule::conserving>(
-        law, point.stress_state, gradient, scheme.alpha_f, history);
+        law,
+        point.stress_state,
+        gradient,
+        scheme.alpha_f,
+        history);
     return kedge::evaluate_force_stress<dim, with_tangent, kedge::StressRule::at_configuration>(
-      law, point.stress_state, gradient, scheme.alpha_f, history);
+      law,
+      point.stress_state,
+      gradient,
+      scheme.alpha_f,
+      history);
   }
 
 
@@ -264,8 +272,8 @@ namespace finite_element
               for (int p = 0; p < dim; ++p)
                 for (std::size_t A = 0; A < n; ++A)
                   for (int R = 0; R < dim; ++R)
-                    internal[indices[p * n + A]] += point.state.reference_volume *
-                                                    stress.stress[p][R] * point.gradient_n[A][R];
+                    internal[indices[p * n + A]] +=
+                      point.state.reference_volume * stress.stress[p][R] * point.gradient_n[A][R];
             }
           return true;
         });
@@ -300,9 +308,10 @@ namespace finite_element
     constraints.set_zero(residual);
     result.residual_norm = residual.l2_norm();
     result.scale         = internal.l2_norm() + inertia.l2_norm() + external.l2_norm();
+    double square        = 0.;
     for (std::size_t i = 0; i < increment.size(); ++i)
-      correction[i] = tangent.m() > 0 ? tangent.diag_element(i) * increment[i] : 0.;
-    result.scale += correction.l2_norm();
+      square += std::pow(tangent.diag_element(i) * increment[i], 2);
+    result.scale += std::sqrt(square);
     return result;
   }
 
@@ -385,7 +394,7 @@ namespace finite_element
   bool
   Solid::accept()
   {
-    const kedge::Stopwatch stopwatch(phases.history_update);
+    const kedge::Stopwatch               stopwatch(phases.history_update);
     std::vector<kedge::PointUpdate<dim>> updates(points.size());
     bool                                 ok = true;
     std::visit(
@@ -396,8 +405,11 @@ namespace finite_element
               double gradient[dim][dim];
               relative_gradient(points[q], u, gradient);
               const kedge::MaterialHistory history{points[q].state.equivalent_plastic_strain};
-              ok = kedge::update_point<dim>(
-                law, points[q].stress_state, history, gradient, updates[q]);
+              ok = kedge::update_point<dim>(law,
+                                            points[q].stress_state,
+                                            history,
+                                            gradient,
+                                            updates[q]);
             }
           return ok;
         });
@@ -449,8 +461,8 @@ namespace finite_element
         const double stress =
           point.state.kirchhoff_stress[1][1] / determinant(point.state.deformation_gradient);
         const auto &X = point.state.reference_position;
-        error += point.state.reference_volume *
-                 std::abs(stress - parameters.exact_stress({X[0], X[1]}));
+        error +=
+          point.state.reference_volume * std::abs(stress - parameters.exact_stress({X[0], X[1]}));
         volume += point.state.reference_volume;
       }
     return error / volume / parameters.stress_scale;

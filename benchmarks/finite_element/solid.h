@@ -125,32 +125,32 @@ namespace finite_element
     void
     assemble_tangent();
     void
-    relative_gradient(const QuadraturePoint            &point,
-                      const std::vector<double>        &u,
+    relative_gradient(const QuadraturePoint     &point,
+                      const std::vector<double> &u,
                       double (&gradient)[dim][dim]) const;
     template <class Run>
     void
     for_each_cell(const Run &run) const;
     template <bool with_tangent, class Law>
     kedge::ForceStress<dim>
-    force_stress(const Law                    &law,
-                 const QuadraturePoint        &point,
+    force_stress(const Law             &law,
+                 const QuadraturePoint &point,
                  const double (&gradient)[dim][dim]) const;
     bool
     add_internal_force();
 
-    const Parameters          parameters;
-    const kedge::Material     material;
-    const kedge::Scheme       scheme;
-    dealii::Triangulation<dim> triangulation;
-    dealii::FESystem<dim>      element;
-    dealii::DoFHandler<dim>    dofs;
+    const Parameters                  parameters;
+    const kedge::Material             material;
+    const kedge::Scheme               scheme;
+    dealii::Triangulation<dim>        triangulation;
+    dealii::FESystem<dim>             element;
+    dealii::DoFHandler<dim>           dofs;
     dealii::AffineConstraints<double> constraints;
     dealii::SparsityPattern           pattern;
     dealii::SparseMatrix<double>      mass, tangent;
     dealii::SparseDirectUMFPACK       solver;
 
-    std::vector<QuadraturePoint>         points; ///< element by element
+    std::vector<QuadraturePoint>                              points; ///< element by element
     std::vector<std::vector<dealii::types::global_dof_index>> dofs_of_cell;
 
     dealii::Vector<double> displacement_n, velocity_n, acceleration_n;
