@@ -29,7 +29,6 @@ MARKERS = {"kedge": "o", "FEM": "s"}
 def _curve(axes, name, points, colour):
     """One method: (error, time) in the order of the suite."""
     kind = name.split()[0]
-    points = sorted(points, key=lambda point: point[1])
     axes.plot([error for error, _ in points], [time for _, time in points],
               marker=MARKERS.get(kind, "^"), markersize=4, linestyle="-", color=colour,
               label=name, alpha=0.9)
@@ -71,8 +70,11 @@ def _panel(axes, rows, rivals, panel, colours):
     return bool(methods)
 
 
-def draw_suite(rows, rivals, folder):
-    """One picture per problem as PNG and SVG; the names of those drawn."""
+def draw_suite(rows, rivals, start, folder):
+    """
+    One picture per problem as PNG and SVG; the names of those drawn. `start` is
+    the time in which kedge does nothing but begin and end.
+    """
     style.set_style()
     plt.rcParams["axes.prop_cycle"] = plt.cycler(color=style.COLOURS + [
         "#8c510a", "#762a83", "#999999", "#5aae61", "#b2182b", "#4393c3", "#f1a340"])
@@ -87,6 +89,8 @@ def draw_suite(rows, rivals, folder):
         colours = {}
         for panel, part in zip(present, axes[0]):
             _panel(part, rows, rivals, panel, colours)
+            part.axhline(start, color="black", linestyle=":", linewidth=0.8,
+                         label="kedge's start")
         axes[0][0].set_ylabel("user CPU time of the whole run [s]")
         handles = {}
         for part in axes[0]:

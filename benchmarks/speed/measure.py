@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 # A command is not repeated once its runs have taken this long in all [s].
-LONG_ENOUGH = 60.
+LONG_ENOUGH = 20.
 
 
 @dataclass

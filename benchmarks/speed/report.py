@@ -1,8 +1,11 @@
 """Tables: CSV, Markdown, and the generated parts of doc/benchmarks.md."""
 import csv
+import datetime
 import math
+import os
 import re
 import shutil
+import subprocess
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -112,6 +115,17 @@ def replace_part(name, text):
     pattern = re.escape(begin) + ".*?" + re.escape(end)
     DOCUMENT.write_text(re.sub(pattern, lambda _: f"{begin}\n{text}{end}", document, flags=re.S),
                         encoding="utf-8")
+
+
+def machine(kedge):
+    """What ran the benchmark, and how busy it was."""
+    text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    model = re.search(r"model name\s*: (.*)", text)
+    versions = subprocess.run([kedge, "--version"], capture_output=True, text=True, check=True)
+    load = os.getloadavg()[2]
+    return (f"Measured on {datetime.date.today()}, {model.group(1) if model else 'unknown'}, "
+            f"{os.cpu_count()} cores, mean load of the last quarter of an hour {load:.1f}; "
+            f"{', '.join(versions.stdout.strip().splitlines())}.\n")
 
 
 def keep_pictures(folder, names):

@@ -6,7 +6,7 @@ import figures
 import report
 import rivals
 from errors import MEASURES
-from measure import ratio, run_interleaved
+from measure import Cost, ratio, run_interleaved, run_once
 from programs import ROOT, Programs
 from results import Run
 
@@ -124,8 +124,10 @@ def run(arg):
                    for problem, table in tables.items())
     (arg.output / "suite.md").write_text(text + "## equal error\n\n" + comparison,
                                          encoding="utf-8")
-    drawn = figures.draw_suite(rows, known, arg.output / "figures")
+    start = Cost([run_once([arg.kedge, "--version"], arg.output / "start.log") for _ in range(3)])
+    drawn = figures.draw_suite(rows, known, start.median("user"), arg.output / "figures")
     if arg.write_doc:
+        report.replace_part("machine", report.machine(arg.kedge))
         for problem, table in tables.items():
             report.replace_part(problem, table)
             if report.rival_table(known, problem):
