@@ -72,9 +72,9 @@ def run_interleaved(commands, logs, repeats):
     return costs
 
 
-def ratio(first, second, name="user"):
-    """The median of the ratios of two commands' figures, turn by turn."""
-    return statistics.median(getattr(a, name) / getattr(b, name)
+def ratio(first, second, name="user", offset=0.):
+    """The median of the ratios of two commands' figures, less an offset, turn by turn."""
+    return statistics.median((getattr(a, name) - offset) / (getattr(b, name) - offset)
                              for a, b in zip(first.samples, second.samples))
 
 

@@ -6,9 +6,10 @@ import figures
 import report
 import rivals
 from errors import MEASURES
-from measure import Cost, ratio, run_interleaved, run_once
+from measure import ratio, run_interleaved
 from programs import ROOT, Programs
 from results import Run
+from studies import start_time
 
 
 def add_arguments(parser):
@@ -124,8 +125,7 @@ def run(arg):
                    for problem, table in tables.items())
     (arg.output / "suite.md").write_text(text + "## equal error\n\n" + comparison,
                                          encoding="utf-8")
-    start = Cost([run_once([arg.kedge, "--version"], arg.output / "start.log") for _ in range(3)])
-    drawn = figures.draw_suite(rows, known, start.median("user"), arg.output / "figures")
+    drawn = figures.draw_suite(rows, known, start_time(arg), arg.output / "figures")
     if arg.write_doc:
         report.replace_part("machine", report.machine(arg.kedge))
         for problem, table in tables.items():
