@@ -77,33 +77,53 @@ def rival_table(rivals, problem):
                            "source": "source"}) if rows else ""
 
 
-def equal_error(rows, rivals):
-    """For each rival's run the cheapest of kedge's and of the elements' that is no worse."""
-    def cheapest(rival, finite_element):
-        times = [(row["user_s"], f"{row['method']} {row['label']}") for row in rows
-                 if (row["problem"], row["variant"]) == (rival.problem, rival.variant)
-                 and row["method"].startswith("FEM") == finite_element
-                 and row.get(rival.measure, "") != "" and row[rival.measure] <= rival.error[1]]
-        return min(times) if times else None
+def cheapest(rows, problem, variant, measure, error, finite_element):
+    """(time, run) of the cheapest run whose error is no larger; None if there is none."""
+    times = [(row["user_s"], f"{row['method']} {row['label']}") for row in rows
+             if (row["problem"], row["variant"]) == (problem, variant)
+             and row["method"].startswith("FEM") == finite_element
+             and row.get(measure, "") != "" and row[measure] <= error]
+    return min(times) if times else None
 
+
+def equal_error(rows, rivals):
+    """For each rival's run the cheapest of kedge's that is no worse."""
     table = []
     for rival in rivals:
-        own, elements = cheapest(rival, False), cheapest(rival, True)
-        row = {"problem": rival.problem, "variant": rival.variant, "rival": rival.name,
+        known = rival.time[0] == rival.time[1]
+        row = {"problem": f"{rival.problem} {rival.variant}", "rival": rival.name,
                "label": rival.label, "measure": rival.measure, "error": rival.error[1],
-               "time": rival.time[0] if rival.time[0] == rival.time[1]
+               "time": rival.time[0] if known
                else f"{number(rival.time[0])} to {number(rival.time[1])}"}
+        own = cheapest(rows, rival.problem, rival.variant, rival.measure, rival.error[1], False)
         if own:
-            row.update(kedge=own[0], run=own[1], gain=rival.time[0] / own[0]
-                       if rival.time[0] == rival.time[1] else
+            row.update(kedge=own[0], run=own[1], gain=rival.time[0] / own[0] if known else
                        f"{number(rival.time[0] / own[0])} to {number(rival.time[1] / own[0])}")
-        if elements:
-            row["fem"] = elements[0]
         table.append(row)
-    return markdown(table, {"problem": "problem", "variant": "", "rival": "program",
-                            "label": "its run", "measure": "measure", "error": "its error",
-                            "time": "its CPU [s]", "kedge": "kedge [s]", "run": "kedge's run",
-                            "gain": "times faster", "fem": "FEM [s]"})
+    return markdown(table, {"problem": "problem", "rival": "program", "label": "its run",
+                            "measure": "measure", "error": "its error", "time": "its CPU [s]",
+                            "kedge": "kedge [s]", "run": "kedge's run",
+                            "gain": "times faster"})
+
+
+def price(rows):
+    """Where both get there: the cheapest runs of kedge and of the elements at some errors."""
+    table = []
+    kinds = dict.fromkeys((row["problem"], row["variant"], measure) for row in rows
+                          for measure in ("stress", "tip", "history", "angle", "corners")
+                          if row.get(measure, "") != "")
+    for problem, variant, measure in kinds:
+        for error in (0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5):
+            own, elements = (cheapest(rows, problem, variant, measure, error, finite_element)
+                             for finite_element in (False, True))
+            if own and elements:
+                table.append({"problem": f"{problem} {variant}", "measure": measure,
+                              "error": error, "kedge": own[0], "run": own[1],
+                              "fem": elements[0], "element": elements[1],
+                              "price": own[0] / elements[0]})
+    return markdown(table, {"problem": "problem", "measure": "measure", "error": "error below",
+                            "kedge": "kedge [s]", "run": "kedge's run", "fem": "FEM [s]",
+                            "element": "the elements' run", "price": "kedge/FEM"})
 
 
 def replace_part(name, text):

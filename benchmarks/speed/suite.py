@@ -123,8 +123,10 @@ def run(arg):
     comparison = report.equal_error(rows, [rival for rival in known if rival.problem in problems])
     text = "".join(f"## {problem}\n\n{table}\n{report.rival_table(known, problem)}\n"
                    for problem, table in tables.items())
-    (arg.output / "suite.md").write_text(text + "## equal error\n\n" + comparison,
-                                         encoding="utf-8")
+    price = report.price(rows)
+    (arg.output / "suite.md").write_text(
+        f"{text}## equal error\n\n{comparison}\n## beside finite elements\n\n{price}",
+        encoding="utf-8")
     drawn = figures.draw_suite(rows, known, start_time(arg), arg.output / "figures")
     if arg.write_doc:
         report.replace_part("machine", report.machine(arg.kedge))
@@ -133,5 +135,6 @@ def run(arg):
             if report.rival_table(known, problem):
                 report.replace_part(f"{problem} rivals", report.rival_table(known, problem))
         report.replace_part("equal error", comparison)
+        report.replace_part("price", price)
         report.keep_pictures(arg.output / "figures", drawn)
     return 1 if any(row["ended"] for row in rows) else 0
