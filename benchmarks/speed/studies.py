@@ -34,7 +34,7 @@ def measure(arg, part, runs, prefixes=None):
     folders = [arg.output / part / name.replace(" ", "_").replace(",", "") for name, _, _ in runs]
     commands = [(prefixes or {}).get(name, []) + command(arg.kedge, scene, folder, settings)
                 for (name, scene, settings), folder in zip(runs, folders)]
-    logs = [folder.with_suffix(".log") for folder in folders]
+    logs = [Path(f"{folder}.log") for folder in folders]
     costs = run_interleaved(commands, logs, arg.repeats)
     for cost, line, log in zip(costs, commands, logs):
         demand(cost, line, log)
@@ -199,7 +199,7 @@ def scenes(arg):
     def one(name):
         folder = arg.output / "scenes" / name
         line = command(arg.kedge, f"{name}.prm", folder, {}) + ["--strict"]
-        log = folder.with_suffix(".log")
+        log = Path(f"{folder}.log")
         spent = run_interleaved([line], [log], 1)[0]
         demand(spent, line, log)
         return {"scene": name, **Run(folder).counts(), "user": spent.median("user"),

@@ -1,5 +1,6 @@
 """The suite: runs the cases, measures time, memory and error, writes tables and pictures."""
 import math
+from pathlib import Path
 
 import cases
 import figures
@@ -75,7 +76,7 @@ def run_problem(arg, programs, group):
             pairs[index] = len(commands)
             folders.append(folder.with_name(folder.name + ".other"))
             commands.append(scene_command(programs, case, arg.compare, folders[-1]))
-    costs = run_interleaved(commands, [folder.with_suffix(".log") for folder in folders],
+    costs = run_interleaved(commands, [Path(f"{folder}.log") for folder in folders],
                             arg.repeats)
     rows = []
     for index, case in enumerate(group):
