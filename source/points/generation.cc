@@ -1,8 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/points/generation.h>
 
-#include <unordered_set>
-
 namespace kedge
 {
   namespace
@@ -28,13 +26,23 @@ namespace kedge
         return x;
       }
 
-      std::uint64_t
+      /** Number of a sub-cell of the box or of the layer of sub-cells around it. */
+      std::size_t
       key(const LatticeIndex<dim> &sub) const
       {
-        std::uint64_t key = 0;
+        std::size_t key = 0;
         for (int d = dim - 1; d >= 0; --d)
           key = key * (high[d] - low[d] + 2) + (sub[d] - low[d] + 1);
         return key;
+      }
+
+      std::size_t
+      n_keys() const
+      {
+        std::size_t n = 1;
+        for (int d = 0; d < dim; ++d)
+          n *= high[d] - low[d] + 2;
+        return n;
       }
 
       /** Calls visit(sub) for all sub-cells, cell after cell. */
@@ -139,36 +147,40 @@ namespace kedge
     for (int d = 0; d < dim; ++d)
       velocity[d] = Expression(body.initial_velocity[d], {"x", "y", "z"}, constants);
 
-    const SubCells<dim>               sub_cells = sub_cells_of(body, lattice);
-    std::vector<GeneratedPoint<dim>>  points;
-    std::vector<LatticeIndex<dim>>    places;
-    std::unordered_set<std::uint64_t> filled;
+    const SubCells<dim> sub_cells = sub_cells_of(body, lattice);
+    std::vector<bool>   filled(sub_cells.n_keys(), false);
+    std::size_t         n_points = 0;
     sub_cells.for_each([&](const LatticeIndex<dim> &sub) {
-      const auto x = sub_cells.centre(sub);
-      if (!body.geometry->contains(x))
+      if (!body.geometry->contains(sub_cells.centre(sub)))
         return;
-      points.push_back({{first_id + points.size(),
-                         x,
-                         state_at_rest<dim>(sub_cells, x, body_index, density, velocity)},
-                        0u});
-      places.push_back(sub);
-      filled.insert(sub_cells.key(sub));
+      filled[sub_cells.key(sub)] = true;
+      ++n_points;
     });
-    if (points.empty())
+    if (n_points == 0)
       throw UserError("Body '" + body.name +
                       "' got no material point: its geometry contains no centre of the grid's "
                       "sub-cells. Refine the grid (Grid/Cells) or use more points per cell "
                       "(Bodies/" +
                       body.name + "/Points per cell).");
 
-    for (unsigned int i = 0; i < points.size(); ++i)
+    std::vector<GeneratedPoint<dim>> points;
+    points.reserve(n_points);
+    sub_cells.for_each([&](const LatticeIndex<dim> &sub) {
+      if (!filled[sub_cells.key(sub)])
+        return;
+      const auto x = sub_cells.centre(sub);
+      points.push_back({{first_id + points.size(),
+                         x,
+                         state_at_rest<dim>(sub_cells, x, body_index, density, velocity)},
+                        0u});
       for (int side = 0; side < 2 * dim; ++side)
         {
-          LatticeIndex<dim> neighbour = places[i];
+          LatticeIndex<dim> neighbour = sub;
           neighbour[side / 2] += side % 2 == 0 ? -1 : 1;
-          if (filled.count(sub_cells.key(neighbour)) == 0)
-            points[i].exposed_sides |= 1u << side;
+          if (!filled[sub_cells.key(neighbour)])
+            points.back().exposed_sides |= 1u << side;
         }
+    });
     return points;
   }
 

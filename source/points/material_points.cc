@@ -6,6 +6,9 @@ namespace kedge
 {
   namespace
   {
+    /** So many points may change cell at a time in any case. */
+    constexpr std::size_t most_movers = 4096;
+
     template <int dim>
     constexpr std::size_t record_values = sizeof(PointRecord<dim>) / sizeof(double);
 
@@ -104,11 +107,25 @@ namespace kedge
   std::uint64_t
   MaterialPoints<dim>::relocate(const BackgroundGrid<dim> &grid)
   {
+    // a part of the movers at a time, whose copies take little memory
+    const std::size_t most = std::max<std::size_t>(most_movers, n_local() / 8);
+    while (move_some(grid, most))
+      ;
+    return n_global_ - handler->n_global_particles();
+  }
+
+
+
+  template <int dim>
+  bool
+  MaterialPoints<dim>::move_some(const BackgroundGrid<dim> &grid, const std::size_t most)
+  {
     using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
     const unsigned int    rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
     std::vector<Iterator> movers;
     std::vector<PointRecord<dim>> staying, leaving;
-    for (auto particle = handler->begin(); particle != handler->end(); ++particle)
+    for (auto particle = handler->begin(); particle != handler->end() && movers.size() < most;
+         ++particle)
       {
         const auto cell  = grid.lattice().cell_of(particle->get_location());
         const bool stays = grid.cell_owner(cell) == rank;
@@ -126,8 +143,9 @@ namespace kedge
     if (parallel)
       for (const auto &record : send_to_owners(grid, leaving))
         insert(grid, record);
-    handler->update_cached_numbers();
-    return n_global_ - handler->n_global_particles();
+    if (parallel || !movers.empty())
+      handler->update_cached_numbers();
+    return dealii::Utilities::MPI::logical_or(movers.size() == most, grid.communicator());
   }
 
   template class MaterialPoints<2>;

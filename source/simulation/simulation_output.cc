@@ -49,24 +49,21 @@ namespace kedge
         double nearest = std::numeric_limits<double>::max();
         for (const auto &point : engine.generated_points())
           {
-            const auto &state = point.record.state;
-            if (!parameters.body.empty() &&
-                scene.bodies[static_cast<unsigned int>(state.body)].name != parameters.body)
+            if (!parameters.body.empty() && scene.bodies[point.body].name != parameters.body)
               continue;
             if (parameters.face_mean)
               {
                 if ((point.exposed_sides >> parameters.side) & 1u)
-                  probe.points.emplace_back(point.record.id,
-                                            state.reference_volume /
-                                              (2. *
-                                               state.reference_half_lengths[parameters.side / 2]));
+                  probe.points.emplace_back(point.id,
+                                            point.volume /
+                                              (2. * point.half_lengths[parameters.side / 2]));
                 continue;
               }
-            const double distance = point.record.location.distance_square(parameters.place);
+            const double distance = point.location.distance_square(parameters.place);
             if (distance < nearest)
               {
                 nearest      = distance;
-                probe.points = {{point.record.id, 1.}};
+                probe.points = {{point.id, 1.}};
               }
           }
         result.push_back(std::move(probe));
@@ -300,7 +297,7 @@ namespace kedge
 
     std::vector<std::uint64_t> points_of_body(scene.bodies.size(), 0);
     for (const auto &point : engine.generated_points())
-      ++points_of_body[static_cast<unsigned int>(point.record.state.body)];
+      ++points_of_body[point.body];
     const double memory = peak_memory(communicator);
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;

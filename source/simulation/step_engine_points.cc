@@ -7,7 +7,24 @@ namespace kedge
   void
   StepEngine<dim>::create_points()
   {
-    generated.clear();
+    std::vector<PointRecord<dim>> records = generate_records();
+    covered                               = {};
+    weights.clear();
+    cover_points(records);
+    // every rank made all points: only one may hand them out
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+      records.clear();
+    cloud.distribute(background, std::move(records));
+    activated = false;
+  }
+
+
+
+  template <int dim>
+  std::vector<PointRecord<dim>>
+  StepEngine<dim>::generate_records()
+  {
+    std::vector<GeneratedPoint<dim>> points;
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       {
         auto of_body = generate_points(scene.bodies[b],
@@ -15,23 +32,21 @@ namespace kedge
                                        scene.materials[scene.bodies[b].material].density,
                                        background.lattice(),
                                        scene.constants,
-                                       generated.size());
-        generated.insert(generated.end(), of_body.begin(), of_body.end());
+                                       points.size());
+        if (points.empty())
+          points = std::move(of_body);
+        else
+          points.insert(points.end(), of_body.begin(), of_body.end());
       }
-    check_overlaps();
-    loads.attach(generated, body_names);
+    loads.attach(points, body_names);
 
+    generated = std::vector<PointOrigin<dim>>(points.begin(), points.end());
+    check_overlaps();
     std::vector<PointRecord<dim>> records;
-    for (const auto &point : generated)
+    records.reserve(points.size());
+    for (const auto &point : points)
       records.push_back(point.record);
-    covered = {};
-    weights.clear();
-    cover_points(records);
-    // every rank made all points: only one may hand them out
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
-      records.clear();
-    cloud.distribute(background, records);
-    activated = false;
+    return records;
   }
 
 
@@ -43,14 +58,13 @@ namespace kedge
     for (const auto &point : generated)
       for (unsigned int b = 0; b < scene.bodies.size(); ++b)
         {
-          const auto own = static_cast<unsigned int>(point.record.state.body);
-          if (b == own || !scene.bodies[b].geometry->contains(point.record.location))
+          if (b == point.body || !scene.bodies[b].geometry->contains(point.location))
             continue;
           std::ostringstream message;
-          message << "Bodies '" << scene.bodies[own].name << "' and '" << scene.bodies[b].name
-                  << "' overlap: a material point of the first, at (" << point.record.location
-                  << "), lies in the second. Change Bodies/" << scene.bodies[b].name
-                  << "/Geometry.";
+          message << "Bodies '" << scene.bodies[point.body].name << "' and '"
+                  << scene.bodies[b].name << "' overlap: a material point of the first, at ("
+                  << point.location << "), lies in the second. Change Bodies/"
+                  << scene.bodies[b].name << "/Geometry.";
           throw UserError(message.str());
         }
   }
@@ -227,15 +241,19 @@ namespace kedge
 
     if (scheme.dynamic)
       map_velocities_back();
+    std::vector<PointState<dim> *> changed;
+    changed.reserve(step_points.size());
     cloud.update_each(
       [&](const unsigned int number, dealii::Point<dim> &location, PointState<dim> &state) {
         const unsigned int slot = step_points.slot_of[number];
+        changed.push_back(&state);
         location += point_displacements[slot];
         state.displacement += point_displacements[slot];
         apply_point_update(updates[slot], state);
         if (scheme.dynamic)
           update_velocities(slot, state);
       });
+    update_domains(changed);
     follow_points();
     activated = false;
   }

@@ -3,6 +3,7 @@
 
 #include <kedge/solid/group_dilatation.h>
 #include <kedge/stress/mean_dilatation.h>
+#include <kedge/transfer/point_packs.h>
 
 namespace kedge
 {
@@ -22,46 +23,112 @@ namespace kedge
     };
 
     /** The force stress of each point by itself. */
-    template <int dim, StressRule rule, class Material>
+    template <int dim, StressRule rule, class MaterialLaw>
     struct PointwiseLaw
     {
+      using Law = MaterialLaw;
       const BatchContext<dim> &context;
-      const Material          &material;
+      const Law               &material;
 
-      template <bool with_tangent>
-      ForceStress<dim>
-      evaluate(const unsigned int slot, const double (&gradient)[dim][dim]) const
+      template <bool with_tangent, typename Number>
+      ForceStress<dim, Number>
+      evaluate(const StressState<dim, Number> &state,
+               const Number (&gradient)[dim][dim],
+               const MaterialHistoryOf<Number> &history,
+               const Number &) const
       {
-        return evaluate_force_stress<dim, with_tangent, rule>(
-          material,
-          context.points.stress_state[slot],
-          gradient,
-          context.alpha,
-          context.points.template history_of<Material>(slot));
+        return evaluate_force_stress<dim, with_tangent, rule>(material,
+                                                              state,
+                                                              gradient,
+                                                              context.alpha,
+                                                              history);
+      }
+
+      double
+      strain_of_group(const unsigned int) const
+      {
+        return 0.;
       }
     };
 
     /** The force stress with the pressure of the point's group; the tangent is at this pressure. */
-    template <int dim, StressRule rule, class Material>
+    template <int dim, StressRule rule, class MaterialLaw>
     struct GroupLaw
     {
+      using Law = MaterialLaw;
       const BatchContext<dim> &context;
-      const Material          &material;
+      const Law               &material;
 
-      template <bool with_tangent>
-      ForceStress<dim>
-      evaluate(const unsigned int slot, const double (&gradient)[dim][dim]) const
+      template <bool with_tangent, typename Number>
+      ForceStress<dim, Number>
+      evaluate(const StressState<dim, Number> &state,
+               const Number (&gradient)[dim][dim],
+               const MaterialHistoryOf<Number> &history,
+               const Number                    &strain) const
       {
-        const double strain = context.dilatation->force_strain(rule, context.points.group[slot]);
-        return evaluate_mean_force_stress<dim, with_tangent, rule>(
-          material,
-          material.bulk_modulus * strain,
-          context.points.stress_state[slot],
-          gradient,
-          context.alpha,
-          context.points.template history_of<Material>(slot));
+        return evaluate_mean_force_stress<dim, with_tangent, rule>(material,
+                                                                   material.bulk_modulus * strain,
+                                                                   state,
+                                                                   gradient,
+                                                                   context.alpha,
+                                                                   history);
+      }
+
+      double
+      strain_of_group(const unsigned int slot) const
+      {
+        return context.dilatation->force_strain(rule, context.points.group[slot]);
       }
     };
+
+    /** Force stresses of the points in the lanes. */
+    template <int dim, bool with_tangent, class Law>
+    inline ForceStress<dim, Pack>
+    evaluate_pack(const Law             &law,
+                  const StepPoints<dim> &points,
+                  const PackOfSlots     &slots,
+                  const Pack (&gradient)[dim][dim])
+    {
+      using Material = typename Law::Law;
+      if constexpr (Material::takes_packs)
+        {
+          Pack strain = 0.;
+          for (unsigned int lane = 0; lane < pack_width; ++lane)
+            strain.set(lane, law.strain_of_group(slots.slot(lane)));
+          return law.template evaluate<with_tangent>(pack_of_states(points, slots),
+                                                     gradient,
+                                                     pack_of_histories<Material>(points, slots),
+                                                     strain);
+        }
+      else
+        {
+          ForceStress<dim, Pack> result{};
+          for (unsigned int lane = 0; lane < slots.count; ++lane)
+            {
+              const unsigned int slot = slots.slot(lane);
+              double             A[dim][dim];
+              for (int i = 0; i < dim; ++i)
+                for (int j = 0; j < dim; ++j)
+                  A[i][j] = gradient[i][j][lane];
+              const auto one =
+                law.template evaluate<with_tangent>(points.stress_state[slot],
+                                                    A,
+                                                    points.template history_of<Material>(slot),
+                                                    law.strain_of_group(slot));
+              result.valid.lanes[lane] = one.valid ? -1 : 0;
+              for (int i = 0; i < dim; ++i)
+                for (int j = 0; j < dim; ++j)
+                  {
+                    result.stress[i][j].set(lane, one.stress[i][j]);
+                    if constexpr (with_tangent)
+                      for (int k = 0; k < dim; ++k)
+                        for (int l = 0; l < dim; ++l)
+                          result.tangent[i][j][k][l].set(lane, one.tangent[i][j][k][l]);
+                  }
+            }
+          return result;
+        }
+    }
 
     /** Calls run(law) with the law of a batch: once per batch. */
     template <int dim, typename Run>
@@ -90,43 +157,67 @@ namespace kedge
         material);
     }
 
-    /** Local node numbers and displacements, component-major, of a stencil. */
-    template <int dim, int n>
-    struct StencilDisplacement
+    /** Points in the lanes: their nodes, basis functions and displacement gradients. */
+    template <int dim, unsigned int pattern>
+    class LanesOfPoints
     {
-      std::array<int, n> local;
-      double             value[dim][n];
+    public:
+      static constexpr int n = stencil_size<dim>(pattern);
+
+      LanesOfPoints(const BatchContext<dim> &context)
+        : context(context)
+        , offsets(node_offsets<dim, pattern>(context.window.node_strides()))
+      {}
 
       void
-      read(const BatchContext<dim>           &context,
-           const std::array<unsigned int, n> &offsets,
-           const unsigned int                 first_node)
+      read(const PackOfSlots &slots)
       {
+        for (unsigned int lane = 0; lane < slots.count; ++lane)
+          {
+            const Stencil<dim> &stencil = context.points.stencil[slots.begin + lane];
+            if (stencil.first_node != last_node)
+              read_displacement(stencil.first_node);
+            local[lane] = last_local;
+            basis[lane] = expand<dim, pattern>(stencil);
+            for (int i = 0; i < dim; ++i)
+              for (int j = 0; j < dim; ++j)
+                {
+                  double sum = 0.;
+                  for (int A = 0; A < n; ++A)
+                    sum += displacement[i][A] * basis[lane].gradient[j][A];
+                  gradient[i][j].set(lane, sum);
+                }
+          }
+        for (unsigned int lane = slots.count; lane < pack_width; ++lane)
+          for (auto &row : gradient)
+            for (Pack &value : row)
+              value.set(lane, value[slots.count - 1]);
+      }
+
+      std::array<int, n>  local[pack_width]; ///< node numbers
+      BasisValues<dim, n> basis[pack_width];
+      Pack                gradient[dim][dim] = {}; ///< A = du/dx_n
+
+    private:
+      void
+      read_displacement(const unsigned int first_node)
+      {
+        last_node = first_node;
         for (int A = 0; A < n; ++A)
           {
-            local[A]        = context.nodes.local(first_node + offsets[A]);
-            const double *u = &context.displacement[std::size_t(local[A]) * dim];
+            last_local[A]   = context.nodes.local(first_node + offsets[A]);
+            const double *u = &context.displacement[std::size_t(last_local[A]) * dim];
             for (int d = 0; d < dim; ++d)
-              value[d][A] = u[d];
+              displacement[d][A] = u[d];
           }
       }
-    };
 
-    template <int dim, int n>
-    inline void
-    displacement_gradient(const StencilDisplacement<dim, n> &u,
-                          const BasisValues<dim, n>         &basis,
-                          double (&gradient)[dim][dim])
-    {
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          {
-            double sum = 0.;
-            for (int A = 0; A < n; ++A)
-              sum += u.value[i][A] * basis.gradient[j][A];
-            gradient[i][j] = sum;
-          }
-    }
+      const BatchContext<dim>          &context;
+      const std::array<unsigned int, n> offsets;
+      unsigned int                      last_node = static_cast<unsigned int>(-1);
+      std::array<int, n>                last_local{};
+      double                            displacement[dim][n];
+    };
 
     /** f_A = sum_p V0 P dN_A/dx_n over a batch. */
     template <int dim, class Law>
@@ -141,37 +232,39 @@ namespace kedge
       void
       run() const
       {
-        constexpr int          n       = stencil_size<dim>(pattern);
-        const auto             offsets = node_offsets<dim, pattern>(context.window.node_strides());
-        const StepPoints<dim> &points  = context.points;
-        StencilDisplacement<dim, n> u;
-        for (unsigned int slot = context.batch.begin; slot < context.batch.end;)
+        constexpr int               n      = stencil_size<dim>(pattern);
+        const StepPoints<dim>      &points = context.points;
+        LanesOfPoints<dim, pattern> lanes(context);
+        double                      sum[dim][n] = {};
+        for (unsigned int begin = context.batch.begin; begin < context.batch.end;)
           {
-            const unsigned int first       = points.stencil[slot].first_node;
-            double             sum[dim][n] = {};
-            u.read(context, offsets, first);
-            for (; slot < context.batch.end && points.stencil[slot].first_node == first; ++slot)
+            const PackOfSlots slots(begin, context.batch.end);
+            lanes.read(slots);
+            const auto stress  = evaluate_pack<dim, false>(law, points, slots, lanes.gradient);
+            status.failed_slot = slots.first_failure(stress.valid, PointStatus::none);
+            if (!status.ok())
+              return;
+            begin += slots.count;
+            for (unsigned int lane = 0; lane < slots.count; ++lane)
               {
-                const auto basis = expand<dim, pattern>(points.stencil[slot]);
-                double     gradient[dim][dim];
-                displacement_gradient(u, basis, gradient);
-                const ForceStress<dim> stress = law.template evaluate<false>(slot, gradient);
-                if (!stress.valid)
-                  {
-                    status.failed_slot = slot;
-                    return;
-                  }
+                const unsigned int slot  = slots.slot(lane);
+                const auto        &basis = lanes.basis[lane];
                 for (int p = 0; p < dim; ++p)
                   for (int R = 0; R < dim; ++R)
                     {
-                      const double factor = points.volume[slot] * stress.stress[p][R];
+                      const double factor = points.volume[slot] * stress.stress[p][R][lane];
                       for (int A = 0; A < n; ++A)
                         sum[p][A] += factor * basis.gradient[R][A];
                     }
+                if (slot + 1 == context.batch.end ||
+                    points.stencil[slot + 1].first_node != points.stencil[slot].first_node)
+                  for (int A = 0; A < n; ++A)
+                    for (int p = 0; p < dim; ++p)
+                      {
+                        force[std::size_t(lanes.local[lane][A]) * dim + p] += sum[p][A];
+                        sum[p][A] = 0.;
+                      }
               }
-            for (int A = 0; A < n; ++A)
-              for (int p = 0; p < dim; ++p)
-                force[std::size_t(u.local[A]) * dim + p] += sum[p][A];
           }
       }
     };
@@ -190,67 +283,85 @@ namespace kedge
         double value[n][dim][dim][n]; ///< [A][p][m][B]
       };
 
+      /** @p tangent of the point in a lane, times its volume. */
       template <int n>
       static void
-      add_point(const double               volume,
-                const ForceStress<dim>    &stress,
+      add_point(const unsigned int lane,
+                const double       volume,
+                const Pack (&tangent)[dim][dim][dim][dim],
                 const BasisValues<dim, n> &basis,
                 Sum<n>                    &sum)
       {
+        double factor[dim][dim][dim][n]; // [p][m][S][A]
+        for (int p = 0; p < dim; ++p)
+          for (int m = 0; m < dim; ++m)
+            for (int S = 0; S < dim; ++S)
+              {
+                double weighted[dim];
+                for (int R = 0; R < dim; ++R)
+                  weighted[R] = volume * tangent[p][R][m][S][lane];
+                for (int A = 0; A < n; ++A)
+                  {
+                    factor[p][m][S][A] = weighted[0] * basis.gradient[0][A];
+                    for (int R = 1; R < dim; ++R)
+                      factor[p][m][S][A] += weighted[R] * basis.gradient[R][A];
+                  }
+              }
         for (int A = 0; A < n; ++A)
           for (int p = 0; p < dim; ++p)
             for (int m = 0; m < dim; ++m)
               {
-                double factor[dim];
-                for (int S = 0; S < dim; ++S)
-                  {
-                    factor[S] = 0.;
-                    for (int R = 0; R < dim; ++R)
-                      factor[S] += basis.gradient[R][A] * stress.tangent[p][R][m][S];
-                    factor[S] *= volume;
-                  }
                 double *entry = sum.value[A][p][m];
                 for (int B = 0; B < n; ++B)
                   {
-                    double add = factor[0] * basis.gradient[0][B];
+                    double add = factor[p][m][0][A] * basis.gradient[0][B];
                     for (int S = 1; S < dim; ++S)
-                      add += factor[S] * basis.gradient[S][B];
+                      add += factor[p][m][S][A] * basis.gradient[S][B];
                     entry[B] += add;
                   }
               }
+      }
+
+      template <int n>
+      void
+      flush(const std::array<std::array<unsigned int, n>, n> &slots,
+            const std::array<int, n>                         &local,
+            Sum<n>                                           &sum) const
+      {
+        for (int A = 0; A < n; ++A)
+          for (int p = 0; p < dim; ++p)
+            {
+              double *row = stiffness.row(local[A], p);
+              for (int B = 0; B < n; ++B)
+                for (int m = 0; m < dim; ++m)
+                  row[slots[A][B] * dim + m] += sum.value[A][p][m][B];
+            }
+        std::fill_n(&sum.value[0][0][0][0], n * dim * dim * n, 0.);
       }
 
       template <unsigned int pattern>
       void
       run() const
       {
-        constexpr int          n       = stencil_size<dim>(pattern);
-        const auto             offsets = node_offsets<dim, pattern>(context.window.node_strides());
-        const auto             slots   = pair_slots<dim, pattern>(stiffness);
-        const StepPoints<dim> &points  = context.points;
-        StencilDisplacement<dim, n> u;
-        Sum<n>                      sum;
-        for (unsigned int slot = context.batch.begin; slot < context.batch.end;)
+        constexpr int               n      = stencil_size<dim>(pattern);
+        const auto                  pairs  = pair_slots<dim, pattern>(stiffness);
+        const StepPoints<dim>      &points = context.points;
+        LanesOfPoints<dim, pattern> lanes(context);
+        Sum<n>                      sum{};
+        for (unsigned int begin = context.batch.begin; begin < context.batch.end;)
           {
-            const unsigned int first = points.stencil[slot].first_node;
-            u.read(context, offsets, first);
-            std::fill_n(&sum.value[0][0][0][0], n * dim * dim * n, 0.);
-            for (; slot < context.batch.end && points.stencil[slot].first_node == first; ++slot)
+            const PackOfSlots slots(begin, context.batch.end);
+            lanes.read(slots);
+            const auto stress = evaluate_pack<dim, true>(law, points, slots, lanes.gradient);
+            begin += slots.count;
+            for (unsigned int lane = 0; lane < slots.count; ++lane)
               {
-                const auto basis = expand<dim, pattern>(points.stencil[slot]);
-                double     gradient[dim][dim];
-                displacement_gradient(u, basis, gradient);
-                const ForceStress<dim> stress = law.template evaluate<true>(slot, gradient);
-                add_point<n>(points.volume[slot], stress, basis, sum);
+                const unsigned int slot = slots.slot(lane);
+                add_point<n>(lane, points.volume[slot], stress.tangent, lanes.basis[lane], sum);
+                if (slot + 1 == context.batch.end ||
+                    points.stencil[slot + 1].first_node != points.stencil[slot].first_node)
+                  flush<n>(pairs, lanes.local[lane], sum);
               }
-            for (int A = 0; A < n; ++A)
-              for (int p = 0; p < dim; ++p)
-                {
-                  double *row = stiffness.row(u.local[A], p);
-                  for (int B = 0; B < n; ++B)
-                    for (int m = 0; m < dim; ++m)
-                      row[slots[A][B] * dim + m] += sum.value[A][p][m][B];
-                }
           }
       }
     };

@@ -1,52 +1,122 @@
 #include <kedge/solid/group_dilatation.h>
 #include <kedge/solid/point_update.h>
 #include <kedge/stress/mean_dilatation.h>
+#include <kedge/transfer/point_packs.h>
 
 namespace kedge
 {
   namespace
   {
-    /** Updates a point that takes the change of volume @p increment of its group. */
-    template <int dim, class Material>
-    bool
-    update_one_of_group(const Material         &material,
-                        const StressState<dim> &state,
-                        const MaterialHistory  &history,
-                        const double (&A)[dim][dim],
-                        const double      increment,
-                        PointUpdate<dim> &update)
+    /** Updates a point; if it is in a group, it takes the group's change of volume @p increment. */
+    template <int dim, class Material, typename Number>
+    Condition<Number>
+    update_one(const Material                  &material,
+               const StressState<dim, Number>  &state,
+               const MaterialHistoryOf<Number> &history,
+               const Number (&A)[dim][dim],
+               const bool                grouped,
+               const Number             &increment,
+               PointUpdate<dim, Number> &update)
     {
-      const double strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
-      return update_point<dim>(MeanDilatation<Material>(material, material.bulk_modulus * strain),
+      if (!grouped)
+        return update_point<dim>(material, state, history, A, update);
+      const Number strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
+      const MeanDilatation<Material, Number> law(material, material.bulk_modulus * strain);
+      return update_point<dim>(law,
                                state,
                                history,
                                A,
                                update,
-                               (increment - relative_volume_strain<dim>(A)) / 3.);
+                               Number((increment - relative_volume_strain<dim>(A)) / 3.));
     }
 
-    /**
-     * Diagonal of the right stretch U = (F^T F)^{1/2}, which scales the GIMP
-     * domain (Coombs et al. 2020).
-     */
-    template <int dim>
-    dealii::Tensor<1, dim>
-    stretch_diagonal(const dealii::Tensor<2, dim> &F)
+    /** Updates the points of a batch; returns the first slot that fails. */
+    template <int dim, class Material>
+    unsigned int
+    update_batch(const Material                            &material,
+                 const StepPoints<dim>                     &points,
+                 const typename StepPoints<dim>::Batch     &batch,
+                 const GroupDilatation                     &dilatation,
+                 const std::vector<dealii::Tensor<2, dim>> &gradients,
+                 std::vector<PointUpdate<dim>>             &updates)
     {
-      double zero[dim] = {}, C[dim][dim], squares[dim], W[dim][dim];
+      const bool grouped      = points.is_grouped(batch);
+      const auto increment_of = [&](const unsigned int slot) {
+        return grouped ? dilatation.increment[points.group[slot]] : 0.;
+      };
+      for (unsigned int begin = batch.begin; begin < batch.end;)
+        {
+          const PackOfSlots slots(begin, batch.end);
+          unsigned int      failed = PointStatus::none;
+          if constexpr (Material::takes_packs)
+            {
+              Pack                   A[dim][dim] = {}, increment = 0.;
+              PointUpdate<dim, Pack> update;
+              for (unsigned int lane = 0; lane < pack_width; ++lane)
+                {
+                  const unsigned int slot = slots.slot(lane);
+                  increment.set(lane, increment_of(slot));
+                  for (int i = 0; i < dim; ++i)
+                    for (int j = 0; j < dim; ++j)
+                      A[i][j].set(lane, gradients[slot][i][j]);
+                }
+              const auto valid = update_one<dim>(material,
+                                                 pack_of_states(points, slots),
+                                                 pack_of_histories<Material>(points, slots),
+                                                 A,
+                                                 grouped,
+                                                 increment,
+                                                 update);
+              failed           = slots.first_failure(valid, PointStatus::none);
+              for (unsigned int lane = 0; lane < slots.count; ++lane)
+                get_lane(lane, update, updates[slots.slot(lane)]);
+            }
+          else
+            for (unsigned int slot = begin; slot < begin + slots.count; ++slot)
+              {
+                double A[dim][dim];
+                for (int i = 0; i < dim; ++i)
+                  for (int j = 0; j < dim; ++j)
+                    A[i][j] = gradients[slot][i][j];
+                if (!update_one<dim>(material,
+                                     points.stress_state[slot],
+                                     points.template history_of<Material>(slot),
+                                     A,
+                                     grouped,
+                                     increment_of(slot),
+                                     updates[slot]))
+                  return slot;
+              }
+          if (failed != PointStatus::none)
+            return failed;
+          begin += slots.count;
+        }
+      return PointStatus::none;
+    }
+
+    /** Diagonal of the right stretch U = (F^T F)^{1/2}. */
+    template <int dim>
+    void
+    stretch_diagonal(const Pack (&F)[dim][dim], Pack (&diagonal)[dim])
+    {
+      Pack zero[dim], C[dim][dim], squares[dim], W[dim][dim];
       for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          {
-            C[i][j] = 0.;
-            for (int k = 0; k < dim; ++k)
-              C[i][j] += F[k][i] * F[k][j];
-          }
+        {
+          zero[i] = diagonal[i] = 0.;
+          for (int j = 0; j < dim; ++j)
+            {
+              C[i][j] = 0.;
+              for (int k = 0; k < dim; ++k)
+                C[i][j] += F[k][i] * F[k][j];
+            }
+        }
       incremental_spectrum<dim>(zero, C, squares, W);
-      dealii::Tensor<1, dim> diagonal;
-      for (int i = 0; i < dim; ++i)
-        for (int k = 0; k < dim; ++k)
-          diagonal[i] += W[i][k] * W[i][k] * std::sqrt(squares[k]);
-      return diagonal;
+      for (int k = 0; k < dim; ++k)
+        {
+          const Pack stretch = sqrt(squares[k]);
+          for (int i = 0; i < dim; ++i)
+            diagonal[i] += W[i][k] * W[i][k] * stretch;
+        }
     }
   } // namespace
 
@@ -71,30 +141,9 @@ namespace kedge
     gradients_at_points(points, window, nodes, displacement, gradients);
     for (const auto &batch : points.batches)
       {
-        const bool         grouped = points.is_grouped(batch);
-        const unsigned int failed  = std::visit(
+        const unsigned int failed = std::visit(
           [&](const auto &material) {
-            for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
-              {
-                double A[dim][dim];
-                for (int i = 0; i < dim; ++i)
-                  for (int j = 0; j < dim; ++j)
-                    A[i][j] = gradients[slot][i][j];
-                const auto &state = points.stress_state[slot];
-                const auto  history =
-                  points.template history_of<std::decay_t<decltype(material)>>(slot);
-                const bool ok =
-                  grouped ? update_one_of_group<dim>(material,
-                                                     state,
-                                                     history,
-                                                     A,
-                                                     dilatation.increment[points.group[slot]],
-                                                     updates[slot])
-                           : update_point<dim>(material, state, history, A, updates[slot]);
-                if (!ok)
-                  return slot;
-              }
-            return PointStatus::none;
+            return update_batch(material, points, batch, dilatation, gradients, updates);
           },
           materials[batch.body]);
         if (failed != PointStatus::none)
@@ -127,20 +176,42 @@ namespace kedge
     state.hardening_energy = update.hardening_energy;
     state.plastic_dissipation += update.dissipation;
     state.equivalent_plastic_strain = update.equivalent_plastic_strain;
-
-    const auto stretch = stretch_diagonal<dim>(state.deformation_gradient);
-    for (int d = 0; d < dim; ++d)
-      state.half_lengths[d] = state.reference_half_lengths[d] * stretch[d];
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                   \
-  template unsigned int evaluate_point_updates(const std::vector<Material> &,    \
-                                               const StepPoints<dim> &,          \
-                                               const LatticeWindow<dim> &,       \
-                                               const ActiveNodes<dim> &,         \
-                                               const std::vector<double> &,      \
-                                               std::vector<PointUpdate<dim>> &); \
-  template void         apply_point_update(const PointUpdate<dim> &, PointState<dim> &);
+
+
+  template <int dim>
+  void
+  update_domains(const std::vector<PointState<dim> *> &states)
+  {
+    for (unsigned int begin = 0; begin < states.size();)
+      {
+        const PackOfSlots slots(begin, states.size());
+        Pack              F[dim][dim], stretch[dim];
+        for (unsigned int lane = 0; lane < pack_width; ++lane)
+          for (int i = 0; i < dim; ++i)
+            for (int j = 0; j < dim; ++j)
+              F[i][j].set(lane, states[slots.slot(lane)]->deformation_gradient[i][j]);
+        stretch_diagonal<dim>(F, stretch);
+        for (unsigned int lane = 0; lane < slots.count; ++lane)
+          for (int d = 0; d < dim; ++d)
+            {
+              PointState<dim> &state = *states[begin + lane];
+              state.half_lengths[d]  = state.reference_half_lengths[d] * stretch[d][lane];
+            }
+        begin += slots.count;
+      }
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                                           \
+  template unsigned int evaluate_point_updates(const std::vector<Material> &,            \
+                                               const StepPoints<dim> &,                  \
+                                               const LatticeWindow<dim> &,               \
+                                               const ActiveNodes<dim> &,                 \
+                                               const std::vector<double> &,              \
+                                               std::vector<PointUpdate<dim>> &);         \
+  template void         apply_point_update(const PointUpdate<dim> &, PointState<dim> &); \
+  template void         update_domains(const std::vector<PointState<dim> *> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 } // namespace kedge

@@ -74,7 +74,7 @@ TEST(MaterialsHencky, WorkIsTheDifferenceOfEnergiesAndItsSlopeTheStress)
           double probe[3]  = {0, 0, 0};
           probe[j]         = 0.25;
           const auto moved = material.respond(strain, probe);
-          const auto still = material.respond(strain, {0, 0, 0});
+          const auto still = material.respond(strain, {0., 0., 0.});
           for (int i = 0; i < 3; ++i)
             EXPECT_NEAR((moved.kirchhoff_stress[i] - still.kirchhoff_stress[i]) / 0.25,
                         material.tangent(still, i, j),

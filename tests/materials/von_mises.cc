@@ -143,7 +143,7 @@ namespace
 
 TEST(MaterialsVonMises, ReturnsToTheSurfaceAlongTheDeviator)
 {
-  for_random_steps([](const VonMises &material, const Step &step, const VonMises::Response &r) {
+  for_random_steps([](const VonMises &material, const Step &step, const VonMises::Response<double> &r) {
     const auto trial = material.elastic.respond(step.strain, step.increment);
     const auto end   = material.updated(r, step.history);
     // stresses of order 1 (G = 1) with a few roundings
@@ -187,7 +187,7 @@ TEST(MaterialsVonMises, ReturnsToTheSurfaceAlongTheDeviator)
 
 TEST(MaterialsVonMises, WorkIsStoredOrDissipated)
 {
-  for_random_steps([](const VonMises &material, const Step &step, const VonMises::Response &r) {
+  for_random_steps([](const VonMises &material, const Step &step, const VonMises::Response<double> &r) {
     Quad strain_n[3];
     for (int i = 0; i < 3; ++i)
       strain_n[i] = step.strain[i];
@@ -212,7 +212,7 @@ TEST(MaterialsVonMises, WorkIsStoredOrDissipated)
 
 TEST(MaterialsVonMises, StressIsTheSlopeOfTheWorkAndTheTangentThatOfTheStress)
 {
-  for_random_steps([](const VonMises &material, const Step &step, const VonMises::Response &r) {
+  for_random_steps([](const VonMises &material, const Step &step, const VonMises::Response<double> &r) {
     // central differences of 113 bits err by h^2 = 1e-20 and 1e-34/h
     const double h = 1e-10;
     for (int j = 0; j < 3; ++j)

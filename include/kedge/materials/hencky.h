@@ -18,12 +18,14 @@ namespace kedge
   {
   public:
     static constexpr bool has_history = false;
+    static constexpr bool takes_packs = true;
 
     /** What the law answers to a principal trial strain. */
+    template <typename Number>
     struct Response
     {
-      double kirchhoff_stress[3]; ///< principal values tau_i [Pa]
-      double work_increment;      ///< Psi(eps_n + deps) - Psi(eps_n) [J/m^3]
+      Number kirchhoff_stress[3]; ///< principal values tau_i [Pa]
+      Number work_increment;      ///< Psi(eps_n + deps) - Psi(eps_n) [J/m^3]
     };
 
     explicit Hencky(const MaterialParameters &parameters)
@@ -37,19 +39,20 @@ namespace kedge
      * work is formed from the increment itself, so that its error is relative
      * to the increment and not to the stored energy.
      */
-    Response
-    respond(const double (&strain_n)[3],
-            const double (&increment)[3],
-            const MaterialHistory & = {}) const
+    template <typename Number>
+    Response<Number>
+    respond(const Number (&strain_n)[3],
+            const Number (&increment)[3],
+            const MaterialHistoryOf<Number> & = {}) const
     {
-      const double trace_n = strain_n[0] + strain_n[1] + strain_n[2];
-      const double trace_d = increment[0] + increment[1] + increment[2];
+      const Number trace_n = strain_n[0] + strain_n[1] + strain_n[2];
+      const Number trace_d = increment[0] + increment[1] + increment[2];
 
-      Response response;
-      double   deviatoric = 0.;
+      Response<Number> response;
+      Number           deviatoric = 0.;
       for (int i = 0; i < 3; ++i)
         {
-          const double e_n = strain_n[i] - trace_n / 3., de = increment[i] - trace_d / 3.;
+          const Number e_n = strain_n[i] - trace_n / 3., de = increment[i] - trace_d / 3.;
           deviatoric += de * (2. * e_n + de);
           response.kirchhoff_stress[i] =
             lame_modulus * (trace_n + trace_d) + 2. * shear_modulus * (strain_n[i] + increment[i]);
@@ -60,26 +63,29 @@ namespace kedge
     }
 
     /** Free energy per reference volume [J/m^3]. */
-    double
-    energy(const double (&strain)[3]) const
+    template <typename Number>
+    Number
+    energy(const Number (&strain)[3]) const
     {
-      const double trace = strain[0] + strain[1] + strain[2];
-      double       sum   = 0.;
-      for (const double eps : strain)
+      const Number trace = strain[0] + strain[1] + strain[2];
+      Number       sum   = 0.;
+      for (const Number &eps : strain)
         sum += (eps - trace / 3.) * (eps - trace / 3.);
       return 0.5 * bulk_modulus * trace * trace + shear_modulus * sum;
     }
 
     /** dtau_i / deps_j [Pa]. */
-    double
-    tangent(const Response &, const int i, const int j) const
+    template <typename Number>
+    Number
+    tangent(const Response<Number> &, const int i, const int j) const
     {
       return lame_modulus + (i == j ? 2. * shear_modulus : 0.);
     }
 
     /** (tau_i - tau_j) / (eps_i - eps_j) of any two principal directions [Pa]. */
-    double
-    secant_shear(const Response &) const
+    template <typename Number>
+    Number
+    secant_shear(const Response<Number> &) const
     {
       return 2. * shear_modulus;
     }

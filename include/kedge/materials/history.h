@@ -1,6 +1,8 @@
 #ifndef kedge_materials_history_h
 #define kedge_materials_history_h
 
+#include <kedge/base/pack.h>
+
 namespace kedge
 {
   /**
@@ -8,10 +10,13 @@ namespace kedge
    * end of the last step. A material whose has_history is false neither reads
    * nor changes it, and a scene of such materials does not store it per step.
    */
-  struct MaterialHistory
+  template <typename Number>
+  struct MaterialHistoryOf
   {
-    double equivalent_plastic_strain = 0.; ///< alpha [-]
+    Number equivalent_plastic_strain = 0.; ///< alpha [-]
   };
+
+  using MaterialHistory = MaterialHistoryOf<double>;
 } // namespace kedge
 
 #endif

@@ -21,15 +21,17 @@ namespace kedge
   {
   public:
     static constexpr bool has_history = true;
+    static constexpr bool takes_packs = true;
 
     /** What the law answers to a principal trial strain. */
+    template <typename Number>
     struct Response
     {
-      double kirchhoff_stress[3]; ///< principal values tau_i [Pa]
-      double work_increment;      ///< dPsi + dD, all stored and dissipated work [J/m^3]
-      double plastic_multiplier;  ///< d lambda = |d eps^p| [-]; 0 in an elastic step
-      double flow[3];             ///< n; unset in an elastic step
-      double shear_factor;        ///< theta = 1 - 2 G d lambda / |s^tr|; 1 in an elastic step
+      Number kirchhoff_stress[3]; ///< principal values tau_i [Pa]
+      Number work_increment;      ///< dPsi + dD, all stored and dissipated work [J/m^3]
+      Number plastic_multiplier;  ///< d lambda = |d eps^p| [-]; 0 in an elastic step
+      Number flow[3];             ///< n; of no use in an elastic step
+      Number shear_factor;        ///< theta = 1 - 2 G d lambda / |s^tr|; 1 in an elastic step
     };
 
     explicit VonMises(const MaterialParameters &parameters)
@@ -39,17 +41,19 @@ namespace kedge
       , hardening_modulus(parameters.hardening_modulus)
     {}
 
-    Response
-    respond(const double (&strain_n)[3],
-            const double (&increment)[3],
-            const MaterialHistory &history) const
+    template <typename Number>
+    Response<Number>
+    respond(const Number (&strain_n)[3],
+            const Number (&increment)[3],
+            const MaterialHistoryOf<Number> &history) const
     {
-      const Hencky::Response trial = elastic.respond(strain_n, increment, history);
+      using std::sqrt;
+      const Hencky::Response<Number> trial = elastic.respond(strain_n, increment, history);
 
-      Response     response;
-      const double pressure =
+      Response<Number> response;
+      const Number     pressure =
         (trial.kirchhoff_stress[0] + trial.kirchhoff_stress[1] + trial.kirchhoff_stress[2]) / 3.;
-      double square = 0.;
+      Number square = 0.;
       for (int i = 0; i < 3; ++i)
         {
           response.kirchhoff_stress[i] = trial.kirchhoff_stress[i];
@@ -60,77 +64,93 @@ namespace kedge
       response.plastic_multiplier = 0.;
       response.shear_factor       = 1.;
 
-      const double norm   = std::sqrt(square);
-      const double excess = norm - radius(history.equivalent_plastic_strain);
-      if (!(excess > 0.))
+      const Number norm   = sqrt(square);
+      const Number excess = norm - radius(history.equivalent_plastic_strain);
+      const auto   yields = excess > 0.;
+      if (!any(yields))
         return response;
 
-      const double G              = elastic.shear_modulus;
-      response.plastic_multiplier = excess / (2. * G + 2. / 3. * hardening_modulus);
-      response.shear_factor       = 1. - 2. * G * response.plastic_multiplier / norm;
+      const double G       = elastic.shear_modulus;
+      const Number divisor = select(yields, norm, 1.);
+      response.plastic_multiplier =
+        select(yields, excess / (2. * G + 2. / 3. * hardening_modulus), 0.);
+      response.shear_factor = 1. - 2. * G * response.plastic_multiplier / divisor;
       response.work_increment -=
         (G + hardening_modulus / 3.) * response.plastic_multiplier * response.plastic_multiplier;
       for (int i = 0; i < 3; ++i)
         {
-          response.flow[i] /= norm;
+          response.flow[i] /= divisor;
           response.kirchhoff_stress[i] -= 2. * G * response.plastic_multiplier * response.flow[i];
         }
       return response;
     }
 
     /** dtau_i / deps^tr_j [Pa], consistent with the return. */
-    double
-    tangent(const Response &response, const int i, const int j) const
+    template <typename Number>
+    Number
+    tangent(const Response<Number> &response, const int i, const int j) const
     {
-      const double G = elastic.shear_modulus;
-      double       value =
+      const double G      = elastic.shear_modulus;
+      const auto   yields = response.plastic_multiplier > 0.;
+      Number       value =
         elastic.bulk_modulus + 2. * G * response.shear_factor * ((i == j ? 1. : 0.) - 1. / 3.);
-      if (response.plastic_multiplier > 0.)
-        value -= 2. * G *
-                 (response.shear_factor - hardening_modulus / (3. * G + hardening_modulus)) *
-                 response.flow[i] * response.flow[j];
+      if (any(yields))
+        value -=
+          select(yields,
+                 2. * G *
+                   (response.shear_factor - hardening_modulus / (3. * G + hardening_modulus)) *
+                   response.flow[i] * response.flow[j],
+                 0.);
       return value;
     }
 
     /** (tau_i - tau_j) / (eps^tr_i - eps^tr_j) of any two principal directions [Pa]. */
-    double
-    secant_shear(const Response &response) const
+    template <typename Number>
+    Number
+    secant_shear(const Response<Number> &response) const
     {
       return 2. * elastic.shear_modulus * response.shear_factor;
     }
 
     /** Elastic free energy Psi_1 of the elastic strain [J/m^3]. */
-    double
-    energy(const double (&elastic_strain)[3]) const
+    template <typename Number>
+    Number
+    energy(const Number (&elastic_strain)[3]) const
     {
       return elastic.energy(elastic_strain);
     }
 
     /** Part of the strain increment in direction i that is plastic [-]. */
-    double
-    plastic_increment(const Response &response, const int i) const
+    template <typename Number>
+    Number
+    plastic_increment(const Response<Number> &response, const int i) const
     {
-      return response.plastic_multiplier > 0. ? response.plastic_multiplier * response.flow[i] : 0.;
+      return select(response.plastic_multiplier > 0.,
+                    response.plastic_multiplier * response.flow[i],
+                    0.);
     }
 
     /** alpha at the end of the step. */
-    MaterialHistory
-    updated(const Response &response, const MaterialHistory &history) const
+    template <typename Number>
+    MaterialHistoryOf<Number>
+    updated(const Response<Number> &response, const MaterialHistoryOf<Number> &history) const
     {
       return {history.equivalent_plastic_strain + std::sqrt(2. / 3.) * response.plastic_multiplier};
     }
 
     /** Psi_2 = H alpha^2 / 2, energy stored in hardening [J/m^3]. */
-    double
-    hardening_energy(const MaterialHistory &history) const
+    template <typename Number>
+    Number
+    hardening_energy(const MaterialHistoryOf<Number> &history) const
     {
       return 0.5 * hardening_modulus * history.equivalent_plastic_strain *
              history.equivalent_plastic_strain;
     }
 
     /** dD = sigma_y d alpha of the step [J/m^3]. */
-    double
-    dissipation(const Response &response) const
+    template <typename Number>
+    Number
+    dissipation(const Response<Number> &response) const
     {
       return std::sqrt(2. / 3.) * yield_stress * response.plastic_multiplier;
     }
@@ -142,8 +162,9 @@ namespace kedge
     }
 
     /** Radius of the yield surface, largest |s| [Pa]. */
-    double
-    radius(const double equivalent_plastic_strain) const
+    template <typename Number>
+    Number
+    radius(const Number &equivalent_plastic_strain) const
     {
       return std::sqrt(2. / 3.) * (yield_stress + hardening_modulus * equivalent_plastic_strain);
     }

@@ -17,6 +17,27 @@ namespace kedge
     unsigned int     exposed_sides; ///< bit 2*direction + (0: low, 1: high)
   };
 
+  /** What the start of a run asks of a material point, of all points on all ranks. */
+  template <int dim>
+  struct PointOrigin
+  {
+    std::uint64_t          id;
+    unsigned int           body;
+    unsigned int           exposed_sides; ///< see GeneratedPoint
+    dealii::Point<dim>     location;
+    dealii::Tensor<1, dim> half_lengths; ///< of its sub-cell [m]
+    double                 volume;       ///< [m^3; m^2 in 2D]
+
+    explicit PointOrigin(const GeneratedPoint<dim> &point)
+      : id(point.record.id)
+      , body(static_cast<unsigned int>(point.record.state.body))
+      , exposed_sides(point.exposed_sides)
+      , location(point.record.location)
+      , half_lengths(point.record.state.reference_half_lengths)
+      , volume(point.record.state.reference_volume)
+    {}
+  };
+
   /**
    * Makes the material points of one body: every cell of the background grid
    * is divided into equal sub-cells, and each sub-cell whose centre lies in

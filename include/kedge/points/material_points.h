@@ -100,6 +100,9 @@ namespace kedge
       return *reinterpret_cast<PointState<dim> *>(particle.get_properties().data());
     }
 
+    /** Moves at most so many points; returns whether more may have to move (collective). */
+    bool
+    move_some(const BackgroundGrid<dim> &grid, const std::size_t most);
     void
     insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
 

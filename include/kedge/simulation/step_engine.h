@@ -51,7 +51,7 @@ namespace kedge
                    const std::vector<unsigned int>     &weights);
 
     /** The points as generated, with exposed faces, for probes; all ranks have all. */
-    const std::vector<GeneratedPoint<dim>> &
+    const std::vector<PointOrigin<dim>> &
     generated_points() const
     {
       return generated;
@@ -192,6 +192,8 @@ namespace kedge
     }
 
   private:
+    std::vector<PointRecord<dim>>
+    generate_records();
     void
     check_overlaps() const;
     void
@@ -253,7 +255,7 @@ namespace kedge
     SolidProblem<dim>    problem;
     NodalState           nodal;
 
-    std::vector<GeneratedPoint<dim>>    generated;
+    std::vector<PointOrigin<dim>>       generated;
     LatticeWindow<dim>                  covered;
     std::vector<unsigned int>           weights;
     bool                                activated = false, new_pattern = false;

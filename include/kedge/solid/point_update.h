@@ -22,10 +22,18 @@ namespace kedge
                          const std::vector<double>     &displacement,
                          std::vector<PointUpdate<dim>> &updates);
 
-  /** Writes an update into the history: F, elastic frame, stress, energies, GIMP domain. */
+  /** Writes an update into the history: F, elastic frame, stress, energies. */
   template <int dim>
   void
   apply_point_update(const PointUpdate<dim> &update, PointState<dim> &state);
+
+  /**
+   * Scales the points' GIMP domains by the diagonal of the right stretch
+   * U = (F^T F)^{1/2} (Coombs et al. 2020).
+   */
+  template <int dim>
+  void
+  update_domains(const std::vector<PointState<dim> *> &states);
 } // namespace kedge
 
 #endif

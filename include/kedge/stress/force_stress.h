@@ -26,36 +26,36 @@ namespace kedge
    * I + A/2), second in configuration n. It equals the printed updated
    * Lagrangian form (3.133) with gradients pushed forward.
    */
-  template <int dim>
+  template <int dim, typename Number = double>
   struct ForceStress
   {
-    double stress[dim][dim];            ///< P
-    double tangent[dim][dim][dim][dim]; ///< dP_pR / dA_mS as [p][R][m][S]
-    double work_increment;              ///< Delta Psi + Delta D at u, per V0
-    bool   valid;
+    Number            stress[dim][dim];            ///< P
+    Number            tangent[dim][dim][dim][dim]; ///< dP_pR / dA_mS as [p][R][m][S]
+    Number            work_increment;              ///< Delta Psi + Delta D at u, per V0
+    Condition<Number> valid;
   };
 
   namespace internal
   {
     /** a : b of symmetric tensors in the order of symmetric_index(). */
-    template <int dim>
-    inline double
-    double_contract(const double (&a)[n_symmetric<dim>], const double (&b)[n_symmetric<dim>])
+    template <int dim, typename Number>
+    inline Number
+    double_contract(const Number (&a)[n_symmetric<dim>], const Number (&b)[n_symmetric<dim>])
     {
-      double sum = 0.;
+      Number sum = 0.;
       for (int s = 0; s < n_symmetric<dim>; ++s)
         sum += (s < dim ? 1. : 2.) * a[s] * b[s];
       return sum;
     }
 
     /** b E b for symmetric b and E. */
-    template <int dim>
+    template <int dim, typename Number>
     inline void
-    sandwich(const double (&b)[n_symmetric<dim>],
-             const double (&E)[n_symmetric<dim>],
-             double (&bEb)[n_symmetric<dim>])
+    sandwich(const Number (&b)[n_symmetric<dim>],
+             const Number (&E)[n_symmetric<dim>],
+             Number (&bEb)[n_symmetric<dim>])
     {
-      double Eb[dim][dim];
+      Number Eb[dim][dim];
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
           {
@@ -73,15 +73,15 @@ namespace kedge
     }
 
     /** P = (I + w A) S and, if asked for, its derivative with respect to A. */
-    template <int dim, bool with_tangent>
+    template <int dim, bool with_tangent, typename Number>
     inline void
-    assemble_force_stress(const double (&A)[dim][dim],
+    assemble_force_stress(const Number (&A)[dim][dim],
                           const double mid_weight,
-                          const double (&S)[n_symmetric<dim>],
-                          const double (&H)[n_symmetric<dim>][n_symmetric<dim>],
-                          ForceStress<dim> &result)
+                          const Number (&S)[n_symmetric<dim>],
+                          const Number (&H)[n_symmetric<dim>][n_symmetric<dim>],
+                          ForceStress<dim, Number> &result)
     {
-      double mid[dim][dim], full[dim][dim];
+      Number mid[dim][dim], full[dim][dim];
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
           {
@@ -91,7 +91,7 @@ namespace kedge
       for (int p = 0; p < dim; ++p)
         for (int R = 0; R < dim; ++R)
           {
-            double sum = 0.;
+            Number sum = 0.;
             for (int Q = 0; Q < dim; ++Q)
               sum += mid[p][Q] * S[symmetric_index<dim>(Q, R)];
             result.stress[p][R] = sum;
@@ -101,7 +101,7 @@ namespace kedge
           for (int R = 0; R < dim; ++R)
             {
               // dP_pR / dE_PQ, then dE_PS = 2 sym(dF^T dA)
-              double dE[n_symmetric<dim>];
+              Number dE[n_symmetric<dim>];
               for (int t = 0; t < n_symmetric<dim>; ++t)
                 {
                   dE[t] = 0.;
@@ -111,7 +111,7 @@ namespace kedge
               for (int m = 0; m < dim; ++m)
                 for (int T = 0; T < dim; ++T)
                   {
-                    double sum = 0.;
+                    Number sum = 0.;
                     for (int Q = 0; Q < dim; ++Q)
                       sum += full[m][Q] * dE[symmetric_index<dim>(Q, T)];
                     result.tangent[p][R][m][T] =
@@ -129,40 +129,41 @@ namespace kedge
      * only at E = 0, and its derivative's rank-one part, O(|C - C_n|) too, is
      * dropped where round-off would exceed it.
      */
-    template <int dim, bool with_tangent>
+    template <int dim, bool with_tangent, typename Number>
     inline void
-    make_conserving(const StressState<dim> &state,
-                    const double (&E)[n_symmetric<dim>],
-                    const double work_increment,
-                    double (&S)[n_symmetric<dim>],
-                    double (&H)[n_symmetric<dim>][n_symmetric<dim>])
+    make_conserving(const StressState<dim, Number> &state,
+                    const Number (&E)[n_symmetric<dim>],
+                    const Number &work_increment,
+                    Number (&S)[n_symmetric<dim>],
+                    Number (&H)[n_symmetric<dim>][n_symmetric<dim>])
     {
       constexpr int    ns              = n_symmetric<dim>;
       constexpr double smallest_square = 1e-280, smallest_square_for_slope = 1e-16;
 
-      double N[ns];
+      Number N[ns];
       sandwich<dim>(state.left_cauchy_green, E, N);
-      const double square = double_contract<dim>(E, N);
+      const Number square = double_contract<dim>(E, N);
 
-      double mean[ns];
+      Number mean[ns];
       for (int s = 0; s < ns; ++s)
         mean[s] = 0.5 * (state.kirchhoff_stress[s] + S[s]);
-      const double q = square > smallest_square
-                         ? (2. * work_increment - double_contract<dim>(mean, E)) / square
-                         : 0.;
+      const auto   moves  = square > smallest_square;
+      const Number excess = 2. * work_increment - double_contract<dim>(mean, E);
+      const Number q      = select(moves, excess / select(moves, square, 1.), 0.);
 
       if constexpr (with_tangent)
         {
-          double slope[ns] = {};
-          if (square > smallest_square_for_slope)
-            for (int t = 0; t < ns; ++t)
-              {
-                double EH = 0.;
-                for (int s = 0; s < ns; ++s)
-                  EH += (s < dim ? 1. : 2.) * E[s] * H[s][t];
-                slope[t] =
-                  (0.5 * (S[t] - state.kirchhoff_stress[t]) - 0.5 * EH - 2. * q * N[t]) / square;
-              }
+          const auto   steep  = square > smallest_square_for_slope;
+          const Number weight = select(steep, 1. / select(steep, square, 1.), 0.);
+          Number       slope[ns];
+          for (int t = 0; t < ns; ++t)
+            {
+              Number EH = 0.;
+              for (int s = 0; s < ns; ++s)
+                EH += (s < dim ? 1. : 2.) * E[s] * H[s][t];
+              slope[t] =
+                (0.5 * (S[t] - state.kirchhoff_stress[t]) - 0.5 * EH - 2. * q * N[t]) * weight;
+            }
           const auto &b = state.left_cauchy_green;
           for (int s = 0; s < ns; ++s)
             {
@@ -191,31 +192,31 @@ namespace kedge
    *              which equilibrium is stated; ignored otherwise
    * @param history of the material at the start of the step
    */
-  template <int dim, bool with_tangent, StressRule rule, class Material>
-  inline ForceStress<dim>
-  evaluate_force_stress(const Material         &material,
-                        const StressState<dim> &state,
-                        const double (&A)[dim][dim],
-                        const double           alpha,
-                        const MaterialHistory &history = {})
+  template <int dim, bool with_tangent, StressRule rule, class Material, typename Number>
+  inline ForceStress<dim, Number>
+  evaluate_force_stress(const Material                 &material,
+                        const StressState<dim, Number> &state,
+                        const Number (&A)[dim][dim],
+                        const double                     alpha,
+                        const MaterialHistoryOf<Number> &history = {})
   {
-    ForceStress<dim> result;
-    double           H[n_symmetric<dim>][n_symmetric<dim>];
-    double           E[n_symmetric<dim>];
+    ForceStress<dim, Number> result;
+    Number                   H[n_symmetric<dim>][n_symmetric<dim>];
+    Number                   E[n_symmetric<dim>];
 
-    double       at[dim][dim];
+    Number       at[dim][dim];
     const double fraction = (rule == StressRule::conserving) ? 1. : alpha;
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j)
         at[i][j] = fraction * A[i][j];
 
     result.valid = relative_determinant<dim>(at) > 0.;
-    if (!result.valid)
+    if (!any(result.valid))
       return result;
     relative_strain<dim>(at, E);
-    RelativeStress<dim, Material> r = evaluate_relative_stress<dim>(material, state, E, history);
-    result.valid                    = r.valid;
-    if (!result.valid)
+    auto r       = evaluate_relative_stress<dim>(material, state, E, history);
+    result.valid = result.valid && r.valid;
+    if (!any(result.valid))
       return result;
     result.work_increment = r.response.work_increment;
 
@@ -239,7 +240,7 @@ namespace kedge
         for (auto &a : result.tangent)
           for (auto &b : a)
             for (auto &c : b)
-              for (double &d : c)
+              for (Number &d : c)
                 d *= alpha;
     return result;
   }

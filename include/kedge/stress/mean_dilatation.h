@@ -16,65 +16,66 @@ namespace kedge
    * It serves as a material for the force stress of a step. Volume and shape
    * must be decoupled in the energy of @p Material, with p = K theta.
    */
-  template <class Material>
+  template <class Material, typename Number = double>
   class MeanDilatation : public Material
   {
   public:
-    using Response = typename Material::Response;
+    using Response = ResponseOf<Material, Number>;
 
     /** @param pressure mean Kirchhoff stress p, tension positive [Pa] */
-    MeanDilatation(const Material &material, const double pressure)
+    MeanDilatation(const Material &material, const Number &pressure)
       : Material(material)
       , pressure(pressure)
     {}
 
     Response
-    respond(const double (&strain_n)[3],
-            const double (&increment)[3],
-            const MaterialHistory &history = {}) const
+    respond(const Number (&strain_n)[3],
+            const Number (&increment)[3],
+            const MaterialHistoryOf<Number> &history = {}) const
     {
-      const double trace         = increment[0] + increment[1] + increment[2];
-      const double deviatoric[3] = {increment[0] - trace / 3.,
+      const Number trace         = increment[0] + increment[1] + increment[2];
+      const Number deviatoric[3] = {increment[0] - trace / 3.,
                                     increment[1] - trace / 3.,
                                     increment[2] - trace / 3.};
 
       Response     response = Material::respond(strain_n, deviatoric, history);
       auto        &tau      = response.kirchhoff_stress;
-      const double change   = pressure - (tau[0] + tau[1] + tau[2]) / 3.;
-      for (double &value : tau)
+      const Number change   = pressure - (tau[0] + tau[1] + tau[2]) / 3.;
+      for (Number &value : tau)
         value += change;
       response.work_increment += pressure * trace;
       return response;
     }
 
     /** dtau_i / deps_j at fixed pressure [Pa]. */
-    double
+    Number
     tangent(const Response &response, const int i, const int j) const
     {
       return Material::tangent(response, i, j) - this->bulk_modulus;
     }
 
   private:
-    const double pressure;
+    const Number pressure;
   };
 
   /** ln det(I + A), its error relative to A and not to 1; not finite where det <= 0. */
-  template <int dim>
-  inline double
-  relative_volume_strain(const double (&A)[dim][dim])
+  template <int dim, typename Number>
+  inline Number
+  relative_volume_strain(const Number (&A)[dim][dim])
   {
+    using std::log1p;
     const auto minor = [&A](const int i, const int j) {
       return A[i][i] * A[j][j] - A[i][j] * A[j][i];
     };
     if constexpr (dim == 2)
-      return std::log1p(A[0][0] + A[1][1] + minor(0, 1));
+      return log1p(A[0][0] + A[1][1] + minor(0, 1));
     else
       {
-        const double determinant = A[0][0] * minor(1, 2) -
+        const Number determinant = A[0][0] * minor(1, 2) -
                                    A[0][1] * (A[1][0] * A[2][2] - A[1][2] * A[2][0]) +
                                    A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]);
-        return std::log1p(A[0][0] + A[1][1] + A[2][2] + minor(0, 1) + minor(0, 2) + minor(1, 2) +
-                          determinant);
+        return log1p(A[0][0] + A[1][1] + A[2][2] + minor(0, 1) + minor(0, 2) + minor(1, 2) +
+                     determinant);
       }
   }
 
@@ -85,26 +86,22 @@ namespace kedge
    * which is also its work_increment. (At a configuration, the pressure is
    * the one there and work_increment has no meaning.)
    */
-  template <int dim, bool with_tangent, StressRule rule, class Material>
-  inline ForceStress<dim>
-  evaluate_mean_force_stress(const Material         &material,
-                             const double            pressure,
-                             const StressState<dim> &state,
-                             const double (&A)[dim][dim],
-                             const double           alpha,
-                             const MaterialHistory &history = {})
+  template <int dim, bool with_tangent, StressRule rule, class Material, typename Number>
+  inline ForceStress<dim, Number>
+  evaluate_mean_force_stress(const Material                 &material,
+                             const Number                   &pressure,
+                             const StressState<dim, Number> &state,
+                             const Number (&A)[dim][dim],
+                             const double                     alpha,
+                             const MaterialHistoryOf<Number> &history = {})
   {
-    StressState<dim> shared = state;
-    const double     change =
+    StressState<dim, Number> shared = state;
+    const Number             change =
       pressure - material.bulk_modulus * (state.strain[0] + state.strain[1] + state.strain[2]);
     for (int i = 0; i < dim; ++i)
       shared.kirchhoff_stress[i] += change;
-    return evaluate_force_stress<dim, with_tangent, rule>(MeanDilatation<Material>(material,
-                                                                                   pressure),
-                                                          shared,
-                                                          A,
-                                                          alpha,
-                                                          history);
+    const MeanDilatation<Material, Number> law(material, pressure);
+    return evaluate_force_stress<dim, with_tangent, rule>(law, shared, A, alpha, history);
   }
 
   /** How a point's force stress depends on its pressure, and its volume on the displacement. */

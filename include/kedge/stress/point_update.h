@@ -9,19 +9,19 @@
 namespace kedge
 {
   /** The history of a material point at the end of a converged step, not yet committed. */
-  template <int dim>
+  template <int dim, typename Number = double>
   struct PointUpdate
   {
-    double relative_gradient[dim][dim];        ///< A = d(Delta u)/dx_n
-    double elastic_frame[dim][dim];            ///< B_{n+1}
-    double kirchhoff_stress[n_symmetric<dim>]; ///< tau_{n+1} [Pa]
-    double out_of_plane_stress;                ///< [Pa]
-    double out_of_plane_stretch_factor;        ///< of the elastic stretch, plane strain
-    double strain_energy;                      ///< per V0 [J/m^3]
+    Number relative_gradient[dim][dim];        ///< A = d(Delta u)/dx_n
+    Number elastic_frame[dim][dim];            ///< B_{n+1}
+    Number kirchhoff_stress[n_symmetric<dim>]; ///< tau_{n+1} [Pa]
+    Number out_of_plane_stress;                ///< [Pa]
+    Number out_of_plane_stretch_factor;        ///< of the elastic stretch, plane strain
+    Number strain_energy;                      ///< per V0 [J/m^3]
     // of a material with a history
-    double hardening_energy;          ///< per V0 [J/m^3]
-    double dissipation;               ///< of this step, per V0 [J/m^3]
-    double equivalent_plastic_strain; ///< at the end of the step
+    Number hardening_energy;          ///< per V0 [J/m^3]
+    Number dissipation;               ///< of this step, per V0 [J/m^3]
+    Number equivalent_plastic_strain; ///< at the end of the step
   };
 
   /**
@@ -68,26 +68,30 @@ namespace kedge
      * exp(d eps^p_i) by which the trial elastic stretches are too long.
      * @p volume_change is added to each principal elastic strain.
      */
-    template <int dim, class Material>
+    template <int dim, class Material, typename Number>
     inline void
-    update_history(const Material                      &material,
-                   const StressState<dim>              &state,
-                   const MaterialHistory               &history,
-                   const RelativeStress<dim, Material> &r,
-                   const double                         volume_change,
-                   double (&plastic_stretch)[3],
-                   PointUpdate<dim> &update)
+    update_history(const Material                              &material,
+                   const StressState<dim, Number>              &state,
+                   const MaterialHistoryOf<Number>             &history,
+                   const RelativeStress<dim, Material, Number> &r,
+                   const Number                                &volume_change,
+                   Number (&plastic_stretch)[3],
+                   PointUpdate<dim, Number> &update)
     {
-      double strain[3];
+      using std::exp;
+      Number strain[3];
       for (int i = 0; i < 3; ++i)
         {
           strain[i]          = state.strain[i] + r.increment[i] + volume_change;
           plastic_stretch[i] = 1.;
           if constexpr (Material::has_history)
             {
-              const double plastic = material.plastic_increment(r.response, i);
-              strain[i] -= plastic;
-              plastic_stretch[i] = std::exp(plastic);
+              const Number plastic = material.plastic_increment(r.response, i);
+              if (any(plastic * plastic > 0.))
+                {
+                  strain[i] -= plastic;
+                  plastic_stretch[i] = exp(plastic);
+                }
             }
         }
       update.strain_energy             = material.energy(strain);
@@ -96,7 +100,7 @@ namespace kedge
       update.equivalent_plastic_strain = 0.;
       if constexpr (Material::has_history)
         {
-          const MaterialHistory end        = material.updated(r.response, history);
+          const auto end                   = material.updated(r.response, history);
           update.hardening_energy          = material.hardening_energy(end);
           update.dissipation               = material.dissipation(r.response);
           update.equivalent_plastic_strain = end.equivalent_plastic_strain;
@@ -113,27 +117,29 @@ namespace kedge
    *                      (MeanDilatation), else 0
    *
    * @return false if det(I + A) or an elastic stretch is not positive; the
-   * update is unset then
+   * update is of no use then
    */
-  template <int dim, class Material>
-  inline bool
-  update_point(const Material         &material,
-               const StressState<dim> &state,
-               const MaterialHistory  &history,
-               const double (&A)[dim][dim],
-               PointUpdate<dim> &update,
-               const double      volume_change = 0.)
+  template <int dim, class Material, typename Number>
+  inline Condition<Number>
+  update_point(const Material                  &material,
+               const StressState<dim, Number>  &state,
+               const MaterialHistoryOf<Number> &history,
+               const Number (&A)[dim][dim],
+               PointUpdate<dim, Number> &update,
+               const Number             &volume_change = 0.)
   {
-    double E[n_symmetric<dim>];
+    using std::exp;
+    Number E[n_symmetric<dim>];
     relative_strain<dim>(A, E);
-    const auto r = evaluate_relative_stress<dim>(material, state, E, history);
-    if (!r.valid || !(relative_determinant<dim>(A) > 0.))
-      return false;
+    const auto r     = evaluate_relative_stress<dim>(material, state, E, history);
+    const auto valid = r.valid && relative_determinant<dim>(A) > 0.;
+    if (!any(valid))
+      return valid;
 
     const auto &tau = r.response.kirchhoff_stress;
-    double      plastic_stretch[3];
+    Number      plastic_stretch[3];
     internal::update_history(material, state, history, r, volume_change, plastic_stretch, update);
-    update.out_of_plane_stress         = dim == 2 ? tau[2] : 0.;
+    update.out_of_plane_stress         = dim == 2 ? tau[2] : Number(0.);
     update.out_of_plane_stretch_factor = 1. / plastic_stretch[2];
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j)
@@ -155,15 +161,15 @@ namespace kedge
       for (auto &row : update.elastic_frame)
         for (int k = 0; k < dim; ++k)
           row[k] /= plastic_stretch[k];
-    if (volume_change != 0.)
+    if (any(volume_change * volume_change > 0.))
       {
-        const double stretch = std::exp(volume_change);
+        const Number stretch = exp(volume_change);
         update.out_of_plane_stretch_factor *= stretch;
         for (auto &row : update.elastic_frame)
-          for (double &entry : row)
+          for (Number &entry : row)
             entry *= stretch;
       }
-    return true;
+    return valid;
   }
 } // namespace kedge
 

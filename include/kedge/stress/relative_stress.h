@@ -13,15 +13,22 @@ namespace kedge
    * The committed state of a material point that its stress depends on, in
    * the configuration n at the start of the step.
    */
-  template <int dim>
+  template <int dim, typename Number = double>
   struct StressState
   {
-    double elastic_frame[dim][dim];             ///< B, B B^T = b^e_n, orthogonal columns
-    double squared_stretch[dim];                ///< squared length of each column of B
-    double strain[3];                           ///< principal elastic Hencky strain eps_n
-    double left_cauchy_green[n_symmetric<dim>]; ///< total b_n = F_n F_n^T
-    double kirchhoff_stress[n_symmetric<dim>];  ///< tau_n [Pa]
+    Number elastic_frame[dim][dim];             ///< B, B B^T = b^e_n, orthogonal columns
+    Number squared_stretch[dim];                ///< squared length of each column of B
+    Number strain[3];                           ///< principal elastic Hencky strain eps_n
+    Number left_cauchy_green[n_symmetric<dim>]; ///< total b_n = F_n F_n^T
+    Number kirchhoff_stress[n_symmetric<dim>];  ///< tau_n [Pa]
   };
+
+  /** What a material answers, with Number for each value. */
+  template <class Material, typename Number>
+  using ResponseOf = decltype(std::declval<const Material &>().respond(
+    std::declval<const Number (&)[3]>(),
+    std::declval<const Number (&)[3]>(),
+    std::declval<const MaterialHistoryOf<Number> &>()));
 
   /**
    * The stress of a trial step, pulled back to the configuration n. With the
@@ -33,27 +40,27 @@ namespace kedge
    * eigenframe of B^T (I + E) B, whose eigenvectors w_i give a_i = B w_i and
    *   S = sum_i tau_i / lambda_i a_i (x) a_i.
    */
-  template <int dim, class Material>
+  template <int dim, class Material, typename Number = double>
   struct RelativeStress
   {
-    double                      frame[dim][dim];    ///< a_i as columns
-    double                      rotation[dim][dim]; ///< w_i as columns
-    double                      lambda[dim];        ///< squared principal trial stretches
-    double                      increment[3];       ///< increment of the principal Hencky strain
-    typename Material::Response response;           ///< principal Kirchhoff stresses, work
-    double                      stress[n_symmetric<dim>]; ///< S [Pa]
-    bool                        valid; ///< false where an eigenvalue is not positive
+    Number                       frame[dim][dim];    ///< a_i as columns
+    Number                       rotation[dim][dim]; ///< w_i as columns
+    Number                       lambda[dim];        ///< squared principal trial stretches
+    Number                       increment[3];       ///< increment of the principal Hencky strain
+    ResponseOf<Material, Number> response;           ///< principal Kirchhoff stresses, work
+    Number                       stress[n_symmetric<dim>]; ///< S [Pa]
+    Condition<Number>            valid; ///< false where an eigenvalue is not positive
   };
 
   /** E = A + A^T + A^T A in the order of symmetric_index(). */
-  template <int dim>
+  template <int dim, typename Number>
   inline void
-  relative_strain(const double (&A)[dim][dim], double (&E)[n_symmetric<dim>])
+  relative_strain(const Number (&A)[dim][dim], Number (&E)[n_symmetric<dim>])
   {
     for (int s = 0; s < n_symmetric<dim>; ++s)
       {
         const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
-        double    sum = A[i][j] + A[j][i];
+        Number    sum = A[i][j] + A[j][i];
         for (int k = 0; k < dim; ++k)
           sum += A[k][i] * A[k][j];
         E[s] = sum;
@@ -61,9 +68,9 @@ namespace kedge
   }
 
   /** det(I + A). */
-  template <int dim>
-  inline double
-  relative_determinant(const double (&A)[dim][dim])
+  template <int dim, typename Number>
+  inline Number
+  relative_determinant(const Number (&A)[dim][dim])
   {
     if constexpr (dim == 2)
       return (1. + A[0][0]) * (1. + A[1][1]) - A[0][1] * A[1][0];
@@ -74,18 +81,19 @@ namespace kedge
   }
 
   /** Evaluates RelativeStress at the relative strain @p E. */
-  template <int dim, class Material>
-  inline RelativeStress<dim, Material>
-  evaluate_relative_stress(const Material         &material,
-                           const StressState<dim> &state,
-                           const double (&E)[n_symmetric<dim>],
-                           const MaterialHistory &history = {})
+  template <int dim, class Material, typename Number>
+  inline RelativeStress<dim, Material, Number>
+  evaluate_relative_stress(const Material                 &material,
+                           const StressState<dim, Number> &state,
+                           const Number (&E)[n_symmetric<dim>],
+                           const MaterialHistoryOf<Number> &history = {})
   {
-    RelativeStress<dim, Material> result;
-    const auto                   &B = state.elastic_frame;
+    using std::log1p;
+    RelativeStress<dim, Material, Number> result;
+    const auto                           &B = state.elastic_frame;
 
     // P = B^T E B
-    double EB[dim][dim], P[dim][dim], delta[dim];
+    Number EB[dim][dim], P[dim][dim], delta[dim];
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j)
         {
@@ -96,25 +104,24 @@ namespace kedge
     for (int i = 0; i < dim; ++i)
       for (int j = i; j < dim; ++j)
         {
-          double sum = 0.;
+          Number sum = 0.;
           for (int k = 0; k < dim; ++k)
             sum += B[k][i] * EB[k][j];
           P[i][j] = P[j][i] = sum;
         }
     incremental_spectrum<dim>(state.squared_stretch, P, delta, result.rotation);
 
-    result.valid        = true;
-    result.increment[2] = 0.; // plane strain: no increment out of plane
     for (int i = 0; i < dim; ++i)
       {
-        result.lambda[i] = state.squared_stretch[i] + delta[i];
-        if (!(result.lambda[i] > 0.))
-          {
-            result.valid = false;
-            return result;
-          }
-        result.increment[i] = 0.5 * std::log1p(delta[i] / state.squared_stretch[i]);
+        result.lambda[i]    = state.squared_stretch[i] + delta[i];
+        const auto positive = result.lambda[i] > 0.;
+        result.valid        = i == 0 ? positive : result.valid && positive;
       }
+    if (!any(result.valid))
+      return result;
+    result.increment[2] = 0.; // plane strain: no increment out of plane
+    for (int i = 0; i < dim; ++i)
+      result.increment[i] = 0.5 * log1p(delta[i] / state.squared_stretch[i]);
 
     result.response = material.respond(state.strain, result.increment, history);
 
@@ -125,16 +132,29 @@ namespace kedge
           for (int l = 0; l < dim; ++l)
             result.frame[k][i] += B[k][l] * result.rotation[l][i];
         }
+    Number ratio[dim];
+    for (int i = 0; i < dim; ++i)
+      ratio[i] = result.response.kirchhoff_stress[i] / result.lambda[i];
     for (int s = 0; s < n_symmetric<dim>; ++s)
       {
         const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
-        double    sum = 0.;
+        Number    sum = 0.;
         for (int i = 0; i < dim; ++i)
-          sum += result.response.kirchhoff_stress[i] / result.lambda[i] * result.frame[k][i] *
-                 result.frame[l][i];
+          sum += ratio[i] * result.frame[k][i] * result.frame[l][i];
         result.stress[s] = sum;
       }
     return result;
+  }
+
+  /** ln(1 + x)/x, so that (eps_i - eps_j)/(lambda_i - lambda_j) = log_slope(x)/(2 lambda_j). */
+  template <typename Number>
+  inline Number
+  log_slope(const Number &x)
+  {
+    using std::log1p, std::abs;
+    const auto   near  = abs(x) < 1e-4;
+    const Number value = log1p(x) / select(near, 1., x);
+    return select(near, 1. - x * (0.5 - x * (1. / 3. - 0.25 * x)), value);
   }
 
   /**
@@ -142,15 +162,17 @@ namespace kedge
    * dS_s = sum over all pairs (P, Q) of H[s][index(P, Q)] dE_PQ; minor
    * symmetric, [Pa].
    */
-  template <int dim, class Material>
+  template <int dim, class Material, typename Number>
   inline void
-  relative_stress_tangent(const Material                      &material,
-                          const RelativeStress<dim, Material> &r,
-                          double (&H)[n_symmetric<dim>][n_symmetric<dim>])
+  relative_stress_tangent(const Material                              &material,
+                          const RelativeStress<dim, Material, Number> &r,
+                          Number (&H)[n_symmetric<dim>][n_symmetric<dim>])
   {
     const auto   &tau = r.response.kirchhoff_stress;
     constexpr int ns  = n_symmetric<dim>;
-    double        same[dim][ns];
+    Number        same[dim][ns], inverse[dim];
+    for (int i = 0; i < dim; ++i)
+      inverse[i] = 1. / r.lambda[i];
     for (int i = 0; i < dim; ++i)
       for (int s = 0; s < ns; ++s)
         same[i][s] = r.frame[symmetric_row<dim>[s]][i] * r.frame[symmetric_column<dim>[s]][i];
@@ -161,14 +183,15 @@ namespace kedge
 
     for (int i = 0; i < dim; ++i)
       {
-        double row[ns] = {};
+        Number row[ns];
         for (int j = 0; j < dim; ++j)
           {
-            double h = material.tangent(r.response, i, j) / (2. * r.lambda[i] * r.lambda[j]);
+            Number h = 0.5 * material.tangent(r.response, i, j);
             if (i == j)
-              h -= tau[i] / (r.lambda[i] * r.lambda[i]);
+              h -= tau[i];
+            h *= inverse[i] * inverse[j];
             for (int t = 0; t < ns; ++t)
-              row[t] += h * same[j][t];
+              row[t] = j == 0 ? h * same[j][t] : row[t] + h * same[j][t];
           }
         for (int s = 0; s < ns; ++s)
           for (int t = 0; t < ns; ++t)
@@ -178,13 +201,12 @@ namespace kedge
     for (int i = 0; i < dim - 1; ++i)
       for (int j = i + 1; j < dim; ++j)
         {
-          // (eps_i - eps_j) / (lambda_i - lambda_j) = log1p(x) / (2 x lambda_j)
-          const double li = r.lambda[i], lj = r.lambda[j], x = (li - lj) / lj;
-          const double ratio =
-            std::abs(x) < 1e-4 ? 1. - x * (0.5 - x * (1. / 3. - 0.25 * x)) : std::log1p(x) / x;
-          const double secant = material.secant_shear(r.response) * 0.5 * ratio / lj;
-          const double g      = (0.5 * (li + lj) * secant - 0.5 * (tau[i] + tau[j])) / (li * lj);
-          double       mixed[ns];
+          const Number li = r.lambda[i], lj = r.lambda[j];
+          const Number secant = 0.5 * material.secant_shear(r.response) *
+                                log_slope((li - lj) * inverse[j]) * inverse[j];
+          const Number g =
+            (0.5 * (li + lj) * secant - 0.5 * (tau[i] + tau[j])) * (inverse[i] * inverse[j]);
+          Number mixed[ns];
           for (int s = 0; s < ns; ++s)
             {
               const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
