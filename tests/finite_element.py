@@ -18,7 +18,8 @@ def run(name, **settings):
     rows = {}
     for table in ("history", "probes"):
         with open(folder / f"{table}.csv", newline="", encoding="utf-8") as file:
-            rows[table] = {key: float(value) for key, value in list(csv.DictReader(file))[-1].items()}
+            last = list(csv.DictReader(file))[-1]
+            rows[table] = {key: float(value) for key, value in last.items()}
     return rows["history"], rows["probes"], json.loads((folder / "summary.json").read_text())
 
 

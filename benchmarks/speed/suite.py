@@ -13,20 +13,6 @@ from results import Run
 from studies import start_time
 
 
-def add_arguments(parser):
-    """The options of this part."""
-    size = parser.add_mutually_exclusive_group()
-    for level in cases.LEVELS:
-        size.add_argument(f"--{level}", dest="level", action="store_const", const=level)
-    parser.set_defaults(level="full")
-    parser.add_argument("--case", default="", metavar="NAME",
-                        help="only cases whose problem, method and run contain this text")
-    parser.add_argument("--compare", metavar="KEDGE",
-                        help="another kedge, run in turns with this one")
-    parser.add_argument("--no-finite-elements", action="store_true",
-                        help="do not build and run the finite element program")
-
-
 def scene_command(programs, case, kedge, folder):
     """The line that runs a case."""
     if case.finite_element:
