@@ -15,7 +15,8 @@ PICTURES = ROOT / "doc" / "pictures" / "benchmarks"
 # The columns of the tables, with what stands above them.
 HEADS = {"variant": "", "method": "method", "label": "run", "points": "points",
          "unknowns": "unknowns", "newton": "iterations", "user_s": "CPU [s]",
-         "wall_s": "wall [s]", "memory_MB": "memory [MB]", "ended": "ended", "other_user_s": "other CPU [s]", "ratio": "this/other"}
+         "wall_s": "wall [s]", "memory_MB": "memory [MB]", "ended": "ended",
+         "other_user_s": "other CPU [s]", "ratio": "this/other"}
 
 
 def write_csv(rows, path):
