@@ -188,3 +188,12 @@ kedge_add_test(benchmark.stability
   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/benchmarks/stability/run.py --short
     --kedge $<TARGET_FILE:kedge> --output ${CMAKE_CURRENT_BINARY_DIR}/stability --jobs 1
   LABELS scene benchmark TIMEOUT 600)
+
+# --- The speed benchmark: that it works, not how fast ------------------------------
+kedge_add_test(benchmark.finite_element LABELS benchmark
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/finite_element.py
+    $<TARGET_FILE:kedge_finite_element> ${PROJECT_SOURCE_DIR}
+    ${CMAKE_CURRENT_BINARY_DIR}/finite_element)
+kedge_add_test(benchmark.speed LABELS benchmark
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/speed_benchmark.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/speed)
