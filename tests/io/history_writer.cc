@@ -74,7 +74,7 @@ TEST(IoHistoryWriter, ReactionsHaveTheColumnsThatAreAskedFor)
 {
   const test::ScratchFolder scratch;
   const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
-  HistoryWriter writer(run, {2, false, false, {"reaction_clamp_x", "reaction_clamp_y"}});
+  HistoryWriter writer(run, {2, false, false, false, {"reaction_clamp_x", "reaction_clamp_y"}});
   HistoryRow    row = make_row(1);
   writer.write(row); // before the first step there are none
   row.reactions = {3., -1. / 7.};
