@@ -72,8 +72,11 @@ namespace kedge
       ParameterFile file = ParameterFile::read(command.scene, MPI_COMM_WORLD);
       for (const std::string &setting : command.settings)
         file.set(setting);
-      if (command.drive)
+      if (command.drive || is_path_file(file))
         {
+          if (command.resume || command.validate)
+            throw UserError(command.scene + " is a path of a single material point; neither "
+                                            "--resume nor --validate goes with it.");
           const PathScene scene = read_path_scene(file);
           return drive_point(scene,
                              output_folder(command, scene.name),

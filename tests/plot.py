@@ -148,6 +148,21 @@ def test_pictures():
                 assert path.stat().st_size > 3000, path
 
 
+def test_element_tests():
+    """A single point of soil; its curves are drawn, but not beside a body."""
+    folder = OUTPUT / "point"
+    folder.mkdir()
+    columns = ["time", "strain_z", "volume_strain", "pressure", "deviator_stress",
+               "pore_pressure", "void_ratio"]
+    rows = [[t, -0.01 * t, -0.001 * t, 1e5 * t, 2e5 * t, 3e4 * t, 0.25 - 0.001 * t]
+            for t in range(5)]
+    (folder / "history.csv").write_text(
+        "\n".join(",".join(map(str, row)) for row in [columns, *rows]) + "\n", encoding="utf-8")
+    plot(folder)
+    assert (folder / "pictures/element-test.png").stat().st_size > 3000
+    assert "single material point" in plot(folder, OUTPUT / "one", code=1)
+
+
 def test_bad_input():
     """A wrong folder and a wrong field are the user's errors and say what is right."""
     assert "no folder" in plot(OUTPUT / "nowhere", code=1)
@@ -158,5 +173,6 @@ shutil.rmtree(OUTPUT, ignore_errors=True)
 OUTPUT.mkdir(parents=True)
 test_reader()
 test_pictures()
+test_element_tests()
 test_bad_input()
 print("all pictures drawn")

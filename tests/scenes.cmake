@@ -56,6 +56,15 @@ kedge_add_scene_test(path.turning_strain.half_step prm/paths/turning_strain.prm
   OPTIONS --drive SET "Constants/steps = 400")
 kedge_add_scene_test(path.2ranks prm/paths/simple_shear.prm OPTIONS --drive RANKS 2)
 
+# --- Element tests of soil, against integrations in other variables --------------
+kedge_add_scene_test(path.isotropic_compression prm/paths/isotropic_compression.prm)
+kedge_add_scene_test(path.oedometer prm/oedometer.prm)
+kedge_add_scene_test(path.triaxial prm/triaxial.prm)
+kedge_add_scene_test(path.triaxial.overconsolidated prm/triaxial.prm SET "Constants/p0 = 50e3")
+kedge_add_scene_test(path.triaxial_drained prm/paths/triaxial_drained.prm)
+kedge_add_scene_test(path.triaxial_drained.critical prm/paths/triaxial_drained.prm
+  SET "Constants/cell = 70e3")
+
 kedge_add_scene_test(scene.discs_plastic_a prm/discs_plastic_a.prm
   COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.discs_plastic_b prm/discs_plastic_b.prm
@@ -76,6 +85,22 @@ kedge_add_scene_test(scene.terzaghi.early prm/terzaghi.prm
   SET "Constants/T = 0.02" "Constants/dt = 0.01")
 kedge_add_scene_test(scene.terzaghi.linear prm/terzaghi.prm
   SET "Constants/T = 0.2" "Bodies/column/Basis = linear")
+# on the surface itself, thirty per cent of the height away from where it was
+kedge_add_scene_test(scene.gibson prm/gibson.prm
+  SET "Output/Points interval = 0" COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.column_dynamic_saturated prm/column_dynamic_saturated.prm
+  COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.column_dynamic_saturated.midpoint prm/column_dynamic_saturated.prm
+  SET "Time/Scheme = midpoint" "Checks/energy books/Tolerance = 1e-4")
+kedge_add_scene_test(scene.column_drained prm/column_drained.prm
+  SET "Output/Points interval = 0")
+kedge_add_scene_test(scene.column_drained.original prm/column_drained.prm
+  SET "Materials/skeleton/Model = hencky" "Pore fluid/Lost porosity = stop"
+  EXPECT_EXIT 2 EXPECT_STDOUT "stopped at t = 10.*a material point has lost its pores")
+kedge_add_scene_test(scene.footing_flexible prm/footing_flexible.prm
+  SET "Constants/n = 5" "Output/Points interval = 0")
+kedge_add_scene_test(scene.footing_harmonic prm/footing_harmonic.prm
+  SET "Constants/n = 15" "Constants/points = 2" "Output/Points interval = 0")
 foreach(scheme trapezoidal newmark midpoint)
   kedge_add_scene_test(scene.falling_soil.${scheme} prm/falling_soil.prm
     SET "Time/Scheme = ${scheme}")
@@ -131,6 +156,10 @@ kedge_add_test(scene.transfer_audit LABELS scene
 kedge_add_scene_test(path.inverted prm/paths/simple_shear.prm OPTIONS --drive
   SET "Path/Deformation gradient = 1 - t, 0, 0; 0, 1, 0; 0, 0, 1"
   EXPECT_EXIT 2 EXPECT_STDOUT "stopped before t = 1 s: det F <= 0" EXPECT_STDERR "^$")
+# --- ... and so does one that would close the pores: ln 0.8 = -0.2231 -------------
+kedge_add_scene_test(path.pores_closed prm/paths/isotropic_compression.prm
+  SET "Path/Material = elastic" "Path/End = 500" "Path/Steps = 500"
+  EXPECT_EXIT 2 EXPECT_STDOUT "stopped before t = 447 s" EXPECT_STDERR "^$")
 
 # --- What a user may get wrong: refused with the cause, exit code 1 -----------
 function(kedge_add_refusal_test name message)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Pictures of kedge's runs: energies and their error, momenta, the solver's
-work, probes, and the body at chosen times coloured by a field."""
+work, probes, and the body at chosen times coloured by a field; of element tests
+of soil the curves of stress and strain."""
 import argparse
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 import style
 from body_picture import draw_body
 from run_reader import NoRun, Run, name_apart
+from soil_picture import draw_element_tests, is_element_test
 from vtu_reader import BadFile
 
 plt = style.plt
@@ -175,6 +177,13 @@ def save(figure, output, name, formats):
 
 def draw_all(arg, runs, output):
     """All pictures that the runs have data for."""
+    if all(map(is_element_test, runs)):
+        save(draw_element_tests(runs), output, "element-test", arg.formats)
+        return
+    for run in runs:
+        if "energy_error" not in run.history:
+            raise NoRun(f"{run.folder} holds a single material point; of these, only element "
+                        "tests of soil are drawn, and not together with other runs")
     for name, draw in (("energies", draw_energies), ("momenta", draw_momenta),
                        ("solver", draw_solver), ("probes", draw_probes)):
         figure = draw(runs)

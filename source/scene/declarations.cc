@@ -1,4 +1,5 @@
 #include <kedge/scene/declarations.h>
+#include <kedge/scene/material_declarations.h>
 #include <kedge/scene/numerics_declarations.h>
 #include <kedge/scene/value_pattern.h>
 
@@ -23,7 +24,7 @@ namespace kedge
         std::vector<SectionDeclaration> sections = {top_level(),
                                                     user_constants(),
                                                     grid(),
-                                                    materials(),
+                                                    declare_materials(allow),
                                                     declare_pore_fluid<dim>(allow),
                                                     bodies(),
                                                     node_conditions(),
@@ -110,52 +111,6 @@ namespace kedge
                   "Corner with the lowest x, y, z [m]."},
                  {"Extent", required, allow.vector(Range::positive()), "Lengths of the edges [m]."},
                  {"Cells", required, allow.counts(false), "Number of cells per direction [-]."}}};
-      }
-
-      SectionDeclaration
-      materials() const
-      {
-        Range poisson;
-        poisson.lower          = -1;
-        poisson.upper          = 0.5;
-        poisson.includes_lower = poisson.includes_upper = false;
-        return {"Materials",
-                "Constitutive laws; bodies name the one that they are made of.",
-                SectionKind::named,
-                {{"Model",
-                  "hencky",
-                  allow.one_of({"hencky", "von_mises"}),
-                  "hencky: Kirchhoff stress linear in the logarithmic strain. von_mises: that, "
-                  "with associated plastic flow at a yield stress that hardens linearly."},
-                 {"Density",
-                  required,
-                  allow.number(Range::positive()),
-                  "Mass per volume of the undeformed body [kg/m^3]."},
-                 {"Young's modulus",
-                  required,
-                  allow.number(Range::positive()),
-                  "Stiffness in tension, E [Pa]."},
-                 {"Poisson's ratio",
-                  required,
-                  allow.number(poisson),
-                  "Lateral contraction over extension, nu [-]."},
-                 {"Volume change",
-                  "pointwise",
-                  allow.one_of({"pointwise", "cell mean"}),
-                  "Whose gives the pressure: a point's own, or the mean in a cell: does not lock."},
-                 {"Yield radius rho_y",
-                  "",
-                  allow.number(Range::positive()).or_empty(),
-                  "von_mises: ||s|| at which the material yields [Pa]. Either this or the next."},
-                 {"Uniaxial yield stress sigma_y",
-                  "",
-                  allow.number(Range::positive()).or_empty(),
-                  "von_mises: stress at which a bar in tension yields, sqrt(3/2) rho_y [Pa]."},
-                 {"Hardening modulus",
-                  "0",
-                  allow.number(Range::not_negative()),
-                  "von_mises: growth of sigma_y with the equivalent plastic strain, H [Pa]; 0 is "
-                  "perfect plasticity."}}};
       }
 
       SectionDeclaration

@@ -244,6 +244,20 @@ namespace kedge
 
 
 
+  AxisControl
+  parse_axis_control(const std::string &text, const Constants &constants)
+  {
+    std::string name, argument;
+    if (!split_call(text, name, argument) || (name != "strain" && name != "stress"))
+      throw UserError("It must be strain(expression of t) or stress(expression of t); did you "
+                      "mean " +
+                      nearest_name(text.substr(0, text.find('(')), {"strain", "stress"}) + "?");
+    Expression(argument, {"t"}, constants);
+    return {name == "stress", argument};
+  }
+
+
+
   std::pair<StepSizeKind, double>
   parse_step(const std::string &text, const Constants &constants)
   {

@@ -2,7 +2,9 @@
 #include <kedge/io/collective.h>
 #include <kedge/io/files.h>
 #include <kedge/simulation/drive_point.h>
-#include <kedge/stress/single_point.h>
+#include <kedge/stress/soil_test.h>
+
+#include <optional>
 
 namespace kedge
 {
@@ -10,14 +12,79 @@ namespace kedge
   {
     const char *const axes = "xyz";
 
-    void
-    write_row(const std::uint64_t       step,
-              const double              time,
-              const SinglePoint::State &state,
-              const bool                plastic,
-              CsvFile                  &file)
+    /** The point on its path, whichever kind that is. */
+    class Driver
     {
-      const auto &tau = state.kirchhoff_stress;
+    public:
+      explicit Driver(const PathScene &scene)
+        : free_point(make_material(scene.material))
+      {
+        if (scene.path.kind == PathParameters::Kind::control)
+          test.emplace(scene.path, scene.material, scene.constants);
+        else
+          path.emplace(scene.path, scene.constants);
+      }
+
+      bool
+      start()
+      {
+        return !test || test->consolidate();
+      }
+
+      bool
+      advance_to(const double t)
+      {
+        return test ? test->advance_to(t) : free_point.deform_to(path->deformation_gradient(t));
+      }
+
+      const SinglePoint::State &
+      state() const
+      {
+        return test ? test->state() : free_point.state();
+      }
+
+      double
+      pore_pressure() const
+      {
+        return test ? test->pore_pressure() : 0.;
+      }
+
+    private:
+      SinglePoint               free_point;
+      std::optional<StrainPath> path;
+      std::optional<SoilTest>   test;
+    };
+
+    /** What an element test adds to the row. */
+    void
+    write_soil(const Driver &driver, const MaterialParameters &material, CsvFile &file)
+    {
+      const SinglePoint::State &state  = driver.state();
+      const double              J      = determinant(state.deformation_gradient);
+      const auto                stress = state.cauchy_stress();
+      for (int i = 0; i < 3; ++i)
+        file << std::log(state.deformation_gradient[i][i]);
+      file << std::log(J);
+      for (int i = 0; i < 3; ++i)
+        file << stress[i][i] - driver.pore_pressure();
+      file << driver.pore_pressure() << 0.5 * (stress[0][0] + stress[1][1]) - stress[2][2]
+           << state.plastic_volume_strain;
+      if (material.initial_porosity > 0.)
+        {
+          const double n = porosity(material.initial_porosity, J);
+          file << n << n / (1. - n);
+        }
+    }
+
+    void
+    write_row(const std::uint64_t step,
+              const double        time,
+              const Driver       &driver,
+              const PathScene    &scene,
+              CsvFile            &file)
+    {
+      const SinglePoint::State &state = driver.state();
+      const auto               &tau   = state.kirchhoff_stress;
       file << step << time;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -28,9 +95,11 @@ namespace kedge
       const auto cauchy = state.cauchy_stress();
       file << -trace(cauchy) / 3. << std::sqrt(1.5) * deviator(cauchy).norm();
       file << state.strain_energy;
-      if (plastic)
+      if (yields(make_material(scene.material)))
         file << state.hardening_energy << state.plastic_dissipation
              << state.equivalent_plastic_strain;
+      if (scene.path.kind == PathParameters::Kind::control)
+        write_soil(driver, scene.material, file);
       file.end_row();
     }
   } // namespace
@@ -38,7 +107,7 @@ namespace kedge
 
 
   std::vector<std::string>
-  path_columns(const MaterialParameters &material)
+  path_columns(const PathScene &scene)
   {
     std::vector<std::string> names = {"step", "time"};
     for (int i = 0; i < 3; ++i)
@@ -48,9 +117,25 @@ namespace kedge
       for (int s = 0; s < n_symmetric<3>; ++s)
         names.push_back(stress + axes[symmetric_row<3>[s]] + axes[symmetric_column<3>[s]]);
     names.insert(names.end(), {"pressure", "von_mises_stress", "strain_energy"});
-    if (has_history(make_material(material)))
+    if (yields(make_material(scene.material)))
       names.insert(names.end(),
                    {"hardening_energy", "plastic_dissipation", "equivalent_plastic_strain"});
+    if (scene.path.kind == PathParameters::Kind::control)
+      {
+        names.insert(names.end(),
+                     {"strain_x",
+                      "strain_y",
+                      "strain_z",
+                      "volume_strain",
+                      "total_stress_xx",
+                      "total_stress_yy",
+                      "total_stress_zz",
+                      "pore_pressure",
+                      "deviator_stress",
+                      "plastic_volume_strain"});
+        if (scene.material.initial_porosity > 0.)
+          names.insert(names.end(), {"porosity", "void_ratio"});
+      }
     return names;
   }
 
@@ -62,26 +147,26 @@ namespace kedge
               const bool                   strict,
               const MPI_Comm               communicator)
   {
-    const std::vector<std::string> columns = path_columns(scene.material);
+    const std::vector<std::string> columns = path_columns(scene);
     verify_checks<3>(scene.checks, columns, {});
-    const StrainPath path(scene.path, scene.constants);
-    const Material   material = make_material(scene.material);
-    const bool       plastic  = has_history(material);
-    const RunFolder  folder(output, RunFolder::Mode::fresh, communicator);
+    Driver          driver(scene);
+    const RunFolder folder(output, RunFolder::Mode::fresh, communicator);
     folder.log() << "kedge: " << (scene.title.empty() ? scene.name : scene.title)
                  << "\n  one material point of '" << scene.material.name << "'" << std::endl;
 
     double stopped_at = -1.; // the time that could not be reached
     run_on_root(communicator, [&]() {
       replace_file(folder.path("parameters.prm"), scene.parameters);
-      CsvFile     file(folder.path("history.csv"), columns);
-      SinglePoint point(material);
-      write_row(0, 0., point.state(), plastic, file);
+      CsvFile file(folder.path("history.csv"), columns);
+      if (driver.start())
+        write_row(0, 0., driver, scene, file);
+      else
+        stopped_at = 0.;
       for (unsigned int step = 1; step <= scene.path.n_steps && stopped_at < 0.; ++step)
         {
           const double t = scene.path.end * step / scene.path.n_steps;
-          if (point.deform_to(path.deformation_gradient(t)))
-            write_row(step, t, point.state(), plastic, file);
+          if (driver.advance_to(t))
+            write_row(step, t, driver, scene, file);
           else
             stopped_at = t;
         }
@@ -90,7 +175,8 @@ namespace kedge
     if (stopped_at >= 0.)
       {
         folder.log() << "kedge: stopped before t = " << stopped_at
-                     << " s: det F <= 0 or no finite stress there" << std::endl;
+                     << " s: det F <= 0, or no finite stress there, or none that is prescribed"
+                     << std::endl;
         return ExitCode::numerical_stop;
       }
 

@@ -144,10 +144,16 @@ namespace kedge
           using M = std::decay_t<decltype(m)>;
           if (context.dilatation)
             {
-              if (conserving)
-                run(GroupLaw<dim, StressRule::conserving, M>{context, m});
+              if constexpr (M::decoupled_volume)
+                {
+                  if (conserving)
+                    run(GroupLaw<dim, StressRule::conserving, M>{context, m});
+                  else
+                    run(GroupLaw<dim, StressRule::at_configuration, M>{context, m});
+                }
               else
-                run(GroupLaw<dim, StressRule::at_configuration, M>{context, m});
+                AssertThrow(false,
+                            dealii::ExcMessage("This material cannot share its change of volume."));
             }
           else if (conserving)
             run(PointwiseLaw<dim, StressRule::conserving, M>{context, m});

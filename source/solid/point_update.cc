@@ -20,14 +20,23 @@ namespace kedge
     {
       if (!grouped)
         return update_point<dim>(material, state, history, A, update);
-      const Number strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
-      const MeanDilatation<Material, Number> law(material, material.bulk_modulus * strain);
-      return update_point<dim>(law,
-                               state,
-                               history,
-                               A,
-                               update,
-                               Number((increment - relative_volume_strain<dim>(A)) / 3.));
+      if constexpr (Material::decoupled_volume)
+        {
+          const Number strain = state.strain[0] + state.strain[1] + state.strain[2] + increment;
+          const MeanDilatation<Material, Number> law(material, material.bulk_modulus * strain);
+          return update_point<dim>(law,
+                                   state,
+                                   history,
+                                   A,
+                                   update,
+                                   Number((increment - relative_volume_strain<dim>(A)) / 3.));
+        }
+      else
+        {
+          AssertThrow(false,
+                      dealii::ExcMessage("This material cannot share its change of volume."));
+          return {};
+        }
     }
 
     /** Updates the points of a batch; returns the first slot that fails. */
@@ -176,6 +185,7 @@ namespace kedge
     state.hardening_energy = update.hardening_energy;
     state.plastic_dissipation += update.dissipation;
     state.equivalent_plastic_strain = update.equivalent_plastic_strain;
+    state.plastic_volume_strain     = update.plastic_volume_strain;
   }
 
 

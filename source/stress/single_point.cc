@@ -43,7 +43,9 @@ namespace kedge
                                                              1.,
                                                              present.deformation_gradient,
                                                              present.kirchhoff_stress);
-    const MaterialHistory history{present.equivalent_plastic_strain};
+    const MaterialHistory history{present.equivalent_plastic_strain,
+                                  present.plastic_volume_strain,
+                                  std::log(determinant(present.deformation_gradient))};
     return std::visit(
       [&](const auto &law) {
         return update_point<3>(law, stress_state, history, A, update);
@@ -70,6 +72,7 @@ namespace kedge
     present.hardening_energy     = update.hardening_energy;
     present.plastic_dissipation += update.dissipation;
     present.equivalent_plastic_strain = update.equivalent_plastic_strain;
+    present.plastic_volume_strain     = update.plastic_volume_strain;
   }
 
 
@@ -88,7 +91,7 @@ namespace kedge
 
   StrainPath::StrainPath(const PathParameters                &parameters,
                          const std::map<std::string, double> &constants)
-    : by_strain(parameters.by_strain)
+    : by_strain(parameters.kind == PathParameters::Kind::logarithmic_strain)
   {
     const auto read = [&](const auto &texts) {
       for (const std::string &text : texts)

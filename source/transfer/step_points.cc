@@ -168,7 +168,9 @@ namespace kedge
         acceleration[slot] = state.acceleration;
         stress_state[slot] = make_stress_state(state);
         if (with_history)
-          history[slot].equivalent_plastic_strain = state.equivalent_plastic_strain;
+          history[slot] = {state.equivalent_plastic_strain,
+                           state.plastic_volume_strain,
+                           std::log(determinant[slot])};
       }
   }
 

@@ -133,7 +133,7 @@ TEST(ScenePath, IsReadWithItsMaterial)
   EXPECT_EQ(scene.title, "A path");
   EXPECT_EQ(scene.material.name, "metal");
   EXPECT_EQ(scene.material.hardening_modulus, 1e9);
-  EXPECT_FALSE(scene.path.by_strain);
+  EXPECT_EQ(scene.path.kind, PathParameters::Kind::deformation_gradient);
   EXPECT_EQ(scene.path.deformation_gradient[1], "g*t");
   EXPECT_EQ(scene.path.deformation_gradient[8], "1");
   EXPECT_EQ(scene.path.end, 3.);

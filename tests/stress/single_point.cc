@@ -27,7 +27,7 @@ namespace
   turning_strain()
   {
     PathParameters parameters;
-    parameters.by_strain          = true;
+    parameters.kind               = PathParameters::Kind::logarithmic_strain;
     parameters.logarithmic_strain = {{"-0.003*min(t, 1) - 0.0073923*max(t - 1, 0)",
                                       "-0.003*min(t, 1) + 0.003*max(t - 1, 0)",
                                       "0.006*min(t, 1) + 0.0043923*max(t - 1, 0)"}};
@@ -163,7 +163,7 @@ TEST(StressSinglePoint, APathBeginsUndeformed)
   EXPECT_EQ(F[2][2], 0.75);
   parameters.deformation_gradient[1] = "t + 1";
   EXPECT_THROW(StrainPath(parameters, no_constants), UserError);
-  parameters.by_strain          = true;
+  parameters.kind               = PathParameters::Kind::logarithmic_strain;
   parameters.logarithmic_strain = {{"t", "0.1", "0"}};
   EXPECT_THROW(StrainPath(parameters, no_constants), UserError);
 }

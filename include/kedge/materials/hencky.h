@@ -17,8 +17,12 @@ namespace kedge
   class Hencky
   {
   public:
-    static constexpr bool has_history = false;
-    static constexpr bool takes_packs = true;
+    static constexpr bool has_history          = false; ///< answers by its MaterialHistory
+    static constexpr bool yields               = false; ///< has plastic strains
+    static constexpr bool can_fail             = false; ///< its Response has a flag, valid
+    static constexpr bool decoupled_volume     = true; ///< mean stress K tr eps, whatever the shape
+    static constexpr bool stress_is_work_slope = true; ///< d(dPsi + dD)/d eps^tr = tau
+    static constexpr bool takes_packs          = true; ///< answers several points at once
 
     /** What the law answers to a principal trial strain. */
     template <typename Number>
@@ -65,7 +69,7 @@ namespace kedge
     /** Free energy per reference volume [J/m^3]. */
     template <typename Number>
     Number
-    energy(const Number (&strain)[3]) const
+    energy(const Number (&strain)[3], const MaterialHistoryOf<Number> & = {}) const
     {
       const Number trace = strain[0] + strain[1] + strain[2];
       Number       sum   = 0.;

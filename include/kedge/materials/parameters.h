@@ -8,7 +8,17 @@ namespace kedge
   enum class MaterialKind
   {
     hencky,
-    von_mises
+    von_mises,
+    improved_hencky,
+    critical_state,         ///< on hencky
+    critical_state_improved ///< on improved_hencky
+  };
+
+  /** What the critical-state model stores in plastic changes of volume. */
+  enum class FrozenEnergy
+  {
+    centred, ///< -a_0 eps_v^p, which puts the surface where critical states are compressed
+    none     ///< as the thesis prints it
   };
 
   /**
@@ -37,6 +47,13 @@ namespace kedge
     // von_mises
     double yield_stress      = 0; ///< uniaxial, sigma_y = sqrt(3/2) rho_y [Pa]
     double hardening_modulus = 0; ///< H [Pa]
+
+    // critical_state, critical_state_improved
+    double       preconsolidation_pressure = 0; ///< p_c, of the Kirchhoff stress [Pa]
+    double       critical_state_slope      = 0; ///< M = |dev tau|/P at the critical state [-]
+    double       surface_alpha             = 1; ///< alpha in (0, 1] [-]
+    double       surface_gamma             = 1; ///< gamma in (0, 1] [-]
+    FrozenEnergy frozen_energy             = FrozenEnergy::centred;
   };
 } // namespace kedge
 

@@ -20,8 +20,12 @@ namespace kedge
   class VonMises
   {
   public:
-    static constexpr bool has_history = true;
-    static constexpr bool takes_packs = true;
+    static constexpr bool has_history          = true;
+    static constexpr bool yields               = true;
+    static constexpr bool can_fail             = false;
+    static constexpr bool decoupled_volume     = true;
+    static constexpr bool stress_is_work_slope = true;
+    static constexpr bool takes_packs          = true;
 
     /** What the law answers to a principal trial strain. */
     template <typename Number>
@@ -115,7 +119,7 @@ namespace kedge
     /** Elastic free energy Psi_1 of the elastic strain [J/m^3]. */
     template <typename Number>
     Number
-    energy(const Number (&elastic_strain)[3]) const
+    energy(const Number (&elastic_strain)[3], const MaterialHistoryOf<Number> & = {}) const
     {
       return elastic.energy(elastic_strain);
     }

@@ -35,6 +35,8 @@ namespace kedge
     dealii::Tensor<1, dim> reference_half_lengths; ///< GIMP domain at the start [m]
     dealii::Tensor<1, dim> half_lengths;           ///< GIMP domain now [m]
     dealii::Tensor<2, dim> deformation_gradient;   ///< F = dx/dX
+    /** eps_v^p, positive where the pores open [-] */
+    double plastic_volume_strain;
     /**
      * B with B B^T = b^e, the elastic left Cauchy-Green tensor: its columns
      * are the principal directions scaled by the principal elastic stretches.

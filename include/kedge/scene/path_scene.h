@@ -21,6 +21,10 @@ namespace kedge
     std::string                   parameters; ///< all values used
   };
 
+  /** Whether a parameter file is a path: has the section Path, which scenes do not. */
+  bool
+  is_path_file(const ParameterFile &file);
+
   /** The sections of a path file: Path and, as in a scene, Constants, Materials, Checks. */
   std::vector<SectionDeclaration>
   declare_path(const std::map<std::string, double> &constants);

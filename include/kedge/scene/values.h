@@ -3,6 +3,7 @@
 
 #include <kedge/grid/parameters.h>
 #include <kedge/io/parameters.h>
+#include <kedge/stress/parameters.h>
 #include <kedge/time_integration/parameters.h>
 
 #include <limits>
@@ -80,6 +81,10 @@ namespace kedge
   ComponentCondition
   parse_component_condition(const std::string                   &text,
                             const std::map<std::string, double> &constants);
+
+  /** strain(of t) or stress(of t). */
+  AxisControl
+  parse_axis_control(const std::string &text, const std::map<std::string, double> &constants);
 
   /** "0.1" (seconds), "15 cfl" or "15 initial cfl"; the value is step or factor. */
   std::pair<StepSizeKind, double>

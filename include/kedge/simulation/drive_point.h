@@ -12,13 +12,15 @@ namespace kedge
 {
   /** The columns of the history.csv that drive_point() writes. */
   std::vector<std::string>
-  path_columns(const MaterialParameters &material);
+  path_columns(const PathScene &scene);
 
   /**
    * Drives a single material point along a path and writes history.csv into
    * the folder @p output: a row for the start and one for each step, with the
    * deformation gradient, Kirchhoff and Cauchy stress [Pa], energies and
-   * dissipation per reference volume [J/m^3]. Then the checks of the scene.
+   * dissipation per reference volume [J/m^3]. Of an element test of soil these
+   * are effective stresses; it adds strains, total stresses, the pore pressure,
+   * porosity and void ratio. Then the checks of the scene.
    * Collective.
    *
    * @param strict a failed check makes the exit code numerical_stop

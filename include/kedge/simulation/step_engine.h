@@ -182,7 +182,7 @@ namespace kedge
     bool
     has_plasticity() const
     {
-      return with_history;
+      return std::any_of(material_of_body.begin(), material_of_body.end(), yields);
     }
 
     std::uint64_t

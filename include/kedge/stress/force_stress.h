@@ -125,7 +125,8 @@ namespace kedge
      * derivative:
      *   S_clc = (tau_n + S_{n+1})/2 + q N,  N = b_n E b_n,
      *   q = [2 (dPsi + dD) - (tau_n + S_{n+1})/2 : E] / (E : N),
-     * E : N = |C - C_n|^2. As C -> C_n, q = O(|C - C_n|); it is set to zero
+     * E : N = |C - C_n|^2. @p work_slope is 2 d(dPsi + dD)/dE, S_{n+1} for most
+     * materials. As C -> C_n, q = O(|C - C_n|); it is set to zero
      * only at E = 0, and its derivative's rank-one part, O(|C - C_n|) too, is
      * dropped where round-off would exceed it.
      */
@@ -134,6 +135,7 @@ namespace kedge
     make_conserving(const StressState<dim, Number> &state,
                     const Number (&E)[n_symmetric<dim>],
                     const Number &work_increment,
+                    const Number (&work_slope)[n_symmetric<dim>],
                     Number (&S)[n_symmetric<dim>],
                     Number (&H)[n_symmetric<dim>][n_symmetric<dim>])
     {
@@ -161,8 +163,9 @@ namespace kedge
               Number EH = 0.;
               for (int s = 0; s < ns; ++s)
                 EH += (s < dim ? 1. : 2.) * E[s] * H[s][t];
-              slope[t] =
-                (0.5 * (S[t] - state.kirchhoff_stress[t]) - 0.5 * EH - 2. * q * N[t]) * weight;
+              slope[t] = (0.5 * (S[t] - state.kirchhoff_stress[t]) + (work_slope[t] - S[t]) -
+                          0.5 * EH - 2. * q * N[t]) *
+                         weight;
             }
           const auto &b = state.left_cauchy_green;
           for (int s = 0; s < ns; ++s)
@@ -225,9 +228,12 @@ namespace kedge
 
     if constexpr (rule == StressRule::conserving)
       {
+        Number work_slope[n_symmetric<dim>];
+        relative_work_slope<dim>(material, r, work_slope);
         internal::make_conserving<dim, with_tangent>(state,
                                                      E,
                                                      r.response.work_increment,
+                                                     work_slope,
                                                      r.stress,
                                                      H);
         internal::assemble_force_stress<dim, with_tangent>(at, 0.5, r.stress, H, result);

@@ -19,6 +19,8 @@ namespace kedge
   template <class Material, typename Number = double>
   class MeanDilatation : public Material
   {
+    static_assert(Material::decoupled_volume);
+
   public:
     using Response = ResponseOf<Material, Number>;
 
@@ -154,7 +156,12 @@ namespace kedge
               S[s] += inverse[i][k] * inverse[j][k];
           }
         relative_strain<dim>(at, E);
-        internal::make_conserving<dim, false>(unit, E, relative_volume_strain<dim>(at), S, unused);
+        internal::make_conserving<dim, false>(unit,
+                                              E,
+                                              relative_volume_strain<dim>(at),
+                                              S,
+                                              S,
+                                              unused);
         ForceStress<dim> force;
         internal::assemble_force_stress<dim, false>(at, 0.5, S, unused, force);
         for (int i = 0; i < dim; ++i)

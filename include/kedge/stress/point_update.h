@@ -22,6 +22,7 @@ namespace kedge
     Number hardening_energy;          ///< per V0 [J/m^3]
     Number dissipation;               ///< of this step, per V0 [J/m^3]
     Number equivalent_plastic_strain; ///< at the end of the step
+    Number plastic_volume_strain;     ///< at the end of the step
   };
 
   /**
@@ -84,7 +85,7 @@ namespace kedge
         {
           strain[i]          = state.strain[i] + r.increment[i] + volume_change;
           plastic_stretch[i] = 1.;
-          if constexpr (Material::has_history)
+          if constexpr (Material::yields)
             {
               const Number plastic = material.plastic_increment(r.response, i);
               if (any(plastic * plastic > 0.))
@@ -94,16 +95,18 @@ namespace kedge
                 }
             }
         }
-      update.strain_energy             = material.energy(strain);
+      MaterialHistoryOf<Number> end;
+      if constexpr (Material::has_history)
+        end = material.updated(r.response, history);
+      update.strain_energy             = material.energy(strain, end);
       update.hardening_energy          = 0.;
       update.dissipation               = 0.;
-      update.equivalent_plastic_strain = 0.;
-      if constexpr (Material::has_history)
+      update.equivalent_plastic_strain = end.equivalent_plastic_strain;
+      update.plastic_volume_strain     = end.plastic_volume_strain;
+      if constexpr (Material::yields)
         {
-          const auto end                   = material.updated(r.response, history);
-          update.hardening_energy          = material.hardening_energy(end);
-          update.dissipation               = material.dissipation(r.response);
-          update.equivalent_plastic_strain = end.equivalent_plastic_strain;
+          update.hardening_energy = material.hardening_energy(end);
+          update.dissipation      = material.dissipation(r.response);
         }
     }
   } // namespace internal
@@ -116,8 +119,8 @@ namespace kedge
    *                      the point's volume strain differs from its group's
    *                      (MeanDilatation), else 0
    *
-   * @return false if det(I + A) or an elastic stretch is not positive; the
-   * update is of no use then
+   * @return false if det(I + A) or an elastic stretch is not positive, or the
+   * material has no answer; the update is of no use then
    */
   template <int dim, class Material, typename Number>
   inline Condition<Number>
@@ -157,7 +160,7 @@ namespace kedge
           update.kirchhoff_stress[s] +=
             tau[k] / r.lambda[k] * update.elastic_frame[i][k] * update.elastic_frame[j][k];
       }
-    if constexpr (Material::has_history)
+    if constexpr (Material::yields)
       for (auto &row : update.elastic_frame)
         for (int k = 0; k < dim; ++k)
           row[k] /= plastic_stretch[k];

@@ -49,7 +49,8 @@ namespace kedge
     Number                       increment[3];       ///< increment of the principal Hencky strain
     ResponseOf<Material, Number> response;           ///< principal Kirchhoff stresses, work
     Number                       stress[n_symmetric<dim>]; ///< S [Pa]
-    Condition<Number>            valid; ///< false where an eigenvalue is not positive
+    /** false where an eigenvalue is not positive or the material has no answer */
+    Condition<Number> valid;
   };
 
   /** E = A + A^T + A^T A in the order of symmetric_index(). */
@@ -124,6 +125,12 @@ namespace kedge
       result.increment[i] = 0.5 * log1p(delta[i] / state.squared_stretch[i]);
 
     result.response = material.respond(state.strain, result.increment, history);
+    if constexpr (Material::can_fail)
+      if (!result.response.valid)
+        {
+          result.valid = false;
+          return result;
+        }
 
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < dim; ++k)
@@ -155,6 +162,31 @@ namespace kedge
     const auto   near  = abs(x) < 1e-4;
     const Number value = log1p(x) / select(near, 1., x);
     return select(near, 1. - x * (0.5 - x * (1. / 3. - 0.25 * x)), value);
+  }
+
+  /**
+   * Twice the slope of the work by E, 2 d(dPsi + dD)/dE = sum_i w_i/lambda_i
+   * a_i (x) a_i with w = d(dPsi + dD)/d eps^tr, in the order of
+   * symmetric_index() [Pa]; S itself where w = tau.
+   */
+  template <int dim, class Material, typename Number>
+  inline void
+  relative_work_slope(const Material                              &material,
+                      const RelativeStress<dim, Material, Number> &r,
+                      Number (&slope)[n_symmetric<dim>])
+  {
+    for (int s = 0; s < n_symmetric<dim>; ++s)
+      {
+        slope[s] = r.stress[s];
+        if constexpr (!Material::stress_is_work_slope)
+          {
+            const int k = symmetric_row<dim>[s], l = symmetric_column<dim>[s];
+            slope[s] = 0.;
+            for (int i = 0; i < dim; ++i)
+              slope[s] +=
+                material.work_slope(r.response, i) / r.lambda[i] * r.frame[k][i] * r.frame[l][i];
+          }
+      }
   }
 
   /**

@@ -32,6 +32,7 @@ namespace kedge
       double                        hardening_energy          = 0; ///< per V0 [J/m^3]
       double                        plastic_dissipation       = 0; ///< so far, per V0 [J/m^3]
       double                        equivalent_plastic_strain = 0; ///< alpha [-]
+      double plastic_volume_strain = 0; ///< positive where the pores open [-]
 
       /** tau / det F [Pa] */
       dealii::SymmetricTensor<2, 3>
@@ -45,7 +46,8 @@ namespace kedge
      * would lead to; nothing is changed. Controls that prescribe stresses
      * iterate on it.
      *
-     * @return false if det F or an elastic stretch would not be positive
+     * @return false if det F or an elastic stretch would not be positive, or
+     * the material has no answer
      */
     bool
     evaluate(const dealii::Tensor<2, 3> &F, PointUpdate<3> &update) const;
