@@ -85,6 +85,23 @@ kedge_add_scene_test(scene.terzaghi.early prm/terzaghi.prm
   SET "Constants/T = 0.02" "Constants/dt = 0.01")
 kedge_add_scene_test(scene.terzaghi.linear prm/terzaghi.prm
   SET "Constants/T = 0.2" "Bodies/column/Basis = linear")
+# on the surface itself, thirty per cent of the height away from where it was
+kedge_add_scene_test(scene.gibson prm/gibson.prm
+  SET "Output/Points interval = 0" COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.column_dynamic_saturated prm/column_dynamic_saturated.prm
+  COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.column_dynamic_saturated.midpoint prm/column_dynamic_saturated.prm
+  SET "Time/Scheme = midpoint" "Checks/energy books/Tolerance = 1e-4")
+kedge_add_scene_test(scene.column_drained prm/column_drained.prm
+  SET "Output/Points interval = 0")
+kedge_add_scene_test(scene.column_drained.original prm/column_drained.prm
+  SET "Materials/skeleton/Model = hencky" "Pore fluid/Lost porosity = stop"
+  EXPECT_EXIT 2 EXPECT_STDOUT "stopped at t = 10.*a material point has lost its pores"
+  EXPECT_STDERR "^$")
+kedge_add_scene_test(scene.footing_flexible prm/footing_flexible.prm
+  SET "Output/Points interval = 0")
+kedge_add_scene_test(scene.footing_harmonic prm/footing_harmonic.prm
+  SET "Constants/n = 15" "Constants/points = 2" "Output/Points interval = 0")
 foreach(scheme trapezoidal newmark midpoint)
   kedge_add_scene_test(scene.falling_soil.${scheme} prm/falling_soil.prm
     SET "Time/Scheme = ${scheme}")
@@ -168,6 +185,15 @@ kedge_add_scene_test(refusal.check_of_path prm/paths/simple_shear.prm
 kedge_add_scene_test(refusal.drive_and_resume prm/paths/simple_shear.prm
   OPTIONS --drive --resume EXPECT_EXIT 1 EXPECT_STDERR "neither --resume nor" LABELS refusal)
 kedge_add_refusal_test(missing_file "missing_file\\.prm.*No such file")
+kedge_add_scene_test(refusal.soil_scheme prm/terzaghi.prm
+  SET "Time/Scheme = clc-midpoint" EXPECT_EXIT 1
+  EXPECT_STDERR "Time/Scheme.*Saturated bodies" LABELS refusal)
+kedge_add_scene_test(refusal.dry_pressure prm/terzaghi.prm
+  SET "Pore fluid/Density = " "Pore fluid/Hydraulic conductivity = " EXPECT_EXIT 1
+  EXPECT_STDERR "Node conditions/top/Pore pressure.*bodies are dry" LABELS refusal)
+kedge_add_scene_test(refusal.missing_face prm/gibson.prm
+  SET "Surface pressures/top/Where = x > 1" EXPECT_EXIT 1
+  EXPECT_STDERR "Surface pressure 'top' finds no exposed face" LABELS refusal)
 # no process waits for another that has given up
 kedge_add_scene_test(refusal.empty_body.2ranks tests/scenes/bad_input/empty_body.prm
   RANKS 2 EXPECT_EXIT 1 EXPECT_STDERR "Body 'block' got no material point" LABELS refusal)

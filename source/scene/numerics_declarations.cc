@@ -101,14 +101,10 @@ namespace kedge
   SectionDeclaration
   declare_pore_fluid(const ValuePatterns<dim> &allow)
   {
-    NumberRange fraction    = NumberRange::positive();
-    fraction.upper          = 1;
-    fraction.includes_upper = false;
-    NumberRange theta       = fraction;
-    theta.includes_upper    = true;
-    theta.lower             = 0.5;
-    theta.includes_lower    = true;
-    const auto positive     = allow.number(NumberRange::positive());
+    NumberRange theta;
+    theta.lower         = 0.5;
+    theta.upper         = 1;
+    const auto positive = allow.number(NumberRange::positive());
     return {
       "Pore fluid",
       "With a Density all bodies are saturated with it; what a material says is then of the "
@@ -120,7 +116,6 @@ namespace kedge
         positive.or_empty(),
         "Of the fluid at pressure 0 [kg/m^3]; empty: the bodies are dry."},
        {"Bulk modulus", "2.2e9", positive, "Of the fluid [Pa]; the default is water's."},
-       {"Initial porosity", "", allow.number(fraction).or_empty(), "Pores over volume [-]."},
        {"Hydraulic conductivity",
         "",
         positive.or_empty(),

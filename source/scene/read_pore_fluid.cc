@@ -35,6 +35,14 @@ namespace kedge
       if (scene.time.step_kind != StepSizeKind::fixed)
         throw SectionReader(reader, {"Time"})
           .error("Step", "Saturated bodies (Pore fluid) need a fixed step.");
+      for (const auto &body : scene.bodies)
+        {
+          const MaterialParameters &material = scene.materials[body.material];
+          if (material.initial_porosity == 0.)
+            throw SectionReader(reader, {"Materials", material.name})
+              .error("Initial porosity",
+                     "Body '" + body.name + "' is saturated, it must be given.");
+        }
       for (const auto &material : scene.materials)
         if (material.volume_change != VolumeChange::pointwise)
           throw SectionReader(reader, {"Materials", material.name})
@@ -57,21 +65,20 @@ namespace kedge
     const SectionReader section(reader, {"Pore fluid"});
     if (section.is_empty("Density"))
       {
-        for (const char *entry : {"Initial porosity", "Hydraulic conductivity"})
-          if (!section.is_empty(entry))
-            throw section.error(entry, "Without a Density there is no pore fluid.");
+        if (!section.is_empty("Hydraulic conductivity"))
+          throw section.error("Hydraulic conductivity",
+                              "Without a Density there is no pore fluid.");
         check_dry(reader, scene);
         return {};
       }
-    for (const char *entry : {"Initial porosity", "Hydraulic conductivity"})
-      if (section.is_empty(entry))
-        throw section.error(entry, "It must be given where there is a pore fluid.");
+    if (section.is_empty("Hydraulic conductivity"))
+      throw section.error("Hydraulic conductivity",
+                          "It must be given where there is a pore fluid.");
     check_saturated(reader, scene);
 
     PorousParameters result;
     result.fluid.fluid_density          = section.number("Density");
     result.fluid.fluid_bulk_modulus     = section.number("Bulk modulus");
-    result.fluid.initial_porosity       = section.number("Initial porosity");
     result.fluid.hydraulic_conductivity = section.number("Hydraulic conductivity");
     result.fluid.kozeny_carman          = section.text("Conductivity law") == "kozeny-carman";
     result.fluid.reference_gravity      = section.number("Reference gravity");

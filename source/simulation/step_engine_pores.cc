@@ -11,7 +11,9 @@ namespace kedge
       {
         const MaterialParameters &material = scene.materials[body.material];
         const double              G = 0.5 * material.young_modulus / (1. + material.poisson_ratio);
-        result.push_back({PoreFluid(scene.pore_fluid->fluid),
+        PoreFluidParameters       fluid = scene.pore_fluid->fluid;
+        fluid.initial_porosity          = material.initial_porosity;
+        result.push_back({PoreFluid(fluid),
                           material.density,
                           0.5 * scene.pore_fluid->stabilisation / G,
                           body.body_force});
@@ -56,7 +58,7 @@ namespace kedge
   void
   StepEngine<dim>::saturate(std::vector<GeneratedPoint<dim>> &points) const
   {
-    const PoreFluid         fluid(scene.pore_fluid->fluid);
+    const std::vector<Soil> soils = soils_of_bodies();
     std::vector<Expression> pressure;
     for (const auto &body : scene.bodies)
       pressure.emplace_back(body.initial_pore_pressure,
@@ -65,10 +67,12 @@ namespace kedge
     for (auto &point : points)
       {
         PointState<dim> &state = point.record.state;
+        const auto       body  = static_cast<unsigned int>(state.body);
+        const PoreFluid &fluid = soils[body].fluid;
         double           x[3]  = {0, 0, 0};
         for (int d = 0; d < dim; ++d)
           x[d] = point.record.location[d];
-        state.pore_pressure = pressure[static_cast<unsigned int>(state.body)](x);
+        state.pore_pressure = pressure[body](x);
         state.porosity      = fluid.initial_porosity;
         // mass is that of grains without pores up to here
         state.mass = (1. - state.porosity) * state.mass +

@@ -10,7 +10,7 @@ namespace kedge
   /** The fluid that saturates all bodies of a scene, and how its pressure is stabilised. */
   struct PorousParameters
   {
-    PoreFluidParameters fluid;
+    PoreFluidParameters fluid;             ///< but the initial porosity, which a material has
     double              stabilisation = 1; ///< of (4.179): tau = stabilisation/(2 G) [-]
     double surface_penalty = 10; ///< of SurfacePressures, times conductivity over cell size [-]
   };
