@@ -18,10 +18,11 @@ namespace kedge
     constexpr double       relative_tolerance = 1e-15;
     constexpr unsigned int most_corrections   = 7;
 
-    /** Conjugate gradients end at this part of the defect's norm, or give up. */
-    constexpr double       iteration_tolerance = 1e-9;
-    constexpr unsigned int most_iterations     = 100;
-    constexpr double       longest_step        = 1e3;
+    /** Conjugate gradients end at this part of the defect's norm, first and later, or give up. */
+    constexpr double       first_tolerance = 1e-9;
+    constexpr double       later_tolerance = 1e-6;
+    constexpr unsigned int most_iterations = 400;
+    constexpr double       longest_step    = 1e3;
   } // namespace
 
 
@@ -135,6 +136,7 @@ namespace kedge
   VelocityMapping<dim>::iterate(const ActiveNodes<dim> &nodes,
                                 const NodeTies<dim>    &ties,
                                 const NodeMatrix<dim>  &mass,
+                                const double            tolerance,
                                 std::vector<double>     residual,
                                 std::vector<double>    &correction,
                                 double                 &energy) const
@@ -153,7 +155,7 @@ namespace kedge
     double       norm = first, before = 1.;
     for (unsigned int k = 0; k < most_iterations && norm > 0.; ++k)
       {
-        if (norm <= iteration_tolerance * iteration_tolerance * first)
+        if (norm <= tolerance * tolerance * first)
           break;
         const double beta = k == 0 ? 0. : norm / before;
         for (std::size_t i = 0; i < n_owned; ++i)
@@ -180,7 +182,7 @@ namespace kedge
         before = norm;
         norm   = squared_norm(residual);
       }
-    return norm <= iteration_tolerance * iteration_tolerance * first;
+    return norm <= tolerance * tolerance * first;
   }
 
 
@@ -295,8 +297,9 @@ namespace kedge
         for (std::size_t i = 0; i < defect.size(); ++i)
           defect[i] = momentum[i] - defect[i];
 
-        double energy = 0.;
-        is_hard       = is_hard || !iterate(nodes, ties, mass, defect, correction, energy);
+        const double tolerance = k == 0 ? first_tolerance : later_tolerance;
+        double       energy    = 0.;
+        is_hard = is_hard || !iterate(nodes, ties, mass, tolerance, defect, correction, energy);
         if (is_hard)
           {
             LinearStatus status = factorise_all(grid, nodes, ties, mass);

@@ -79,6 +79,7 @@ namespace kedge
     iterate(const ActiveNodes<dim> &nodes,
             const NodeTies<dim>    &ties,
             const NodeMatrix<dim>  &mass,
+            const double            tolerance,
             std::vector<double>     residual,
             std::vector<double>    &correction,
             double                 &energy) const;
