@@ -11,7 +11,8 @@ namespace kedge
   struct PorousParameters
   {
     PoreFluidParameters fluid;
-    double              stabilisation = 1; ///< of (4.179): tau = stabilisation/(2 G) [-]
+    bool                coarse_pressure = false; ///< whether it lives at the cells' corners alone
+    double              stabilisation   = 1;     ///< of (4.179): tau = stabilisation/(2 G) [-]
     double surface_penalty = 10; ///< of SurfacePressures, times conductivity over cell size [-]
   };
 
