@@ -102,6 +102,14 @@ kedge_add_scene_test(scene.footing_flexible prm/footing_flexible.prm
   SET "Output/Points interval = 0")
 kedge_add_scene_test(scene.footing_harmonic prm/footing_harmonic.prm
   SET "Constants/n = 15" "Constants/points = 2" "Output/Points interval = 0")
+foreach(basis linear gimp quadratic)
+  kedge_add_scene_test(scene.terzaghi.coarse.${basis} prm/terzaghi.prm
+    SET "Constants/T = 0.02" "Constants/n = 20" "Constants/dt = 0.01"
+      "Pore fluid/Pressure space = coarse" "Bodies/column/Basis = ${basis}"
+      "Bodies/column/Points per cell = 4" COMPARE_RANKS 1e-8)
+endforeach()
+kedge_add_scene_test(scene.falling_soil.coarse prm/falling_soil.prm
+  SET "Pore fluid/Pressure space = coarse" "Bodies/block/Points per cell = 4")
 foreach(scheme trapezoidal newmark midpoint)
   kedge_add_scene_test(scene.falling_soil.${scheme} prm/falling_soil.prm
     SET "Time/Scheme = ${scheme}")

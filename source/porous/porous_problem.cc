@@ -74,9 +74,9 @@ namespace kedge
         {
           const bool prescribed =
             c < dim ? conditions.prescribed(i, c) : conditions.pressure_prescribed(i);
-          status[std::size_t(i) * n + c] = prescribed            ? NodalStatus::prescribed
-                                           : ties.tie_of(i) >= 0 ? NodalStatus::tied
-                                                                 : NodalStatus::free;
+          status[std::size_t(i) * n + c] = ties.is_tied(i, c) ? NodalStatus::tied
+                                           : prescribed       ? NodalStatus::prescribed
+                                                              : NodalStatus::free;
         }
     equations.reinit(grid, nodes, ties, status, tangent);
     linear_solver.pattern_changed();
@@ -127,11 +127,23 @@ namespace kedge
       }
     std::vector<double> sums(2 * std::size_t(nodes->n_local()), 0.);
     add_scalars_to_nodes(*points, grid->window(), *nodes, at_points, 2, sums);
+    bool is_coarse = false;
+    for (const auto &tie : ties->ties())
+      if (tie.interpolates)
+        {
+          is_coarse = true;
+          for (unsigned int k = 0; k < tie.roots.size(); ++k)
+            for (unsigned int c = 0; c < 2; ++c)
+              sums[2 * std::size_t(tie.roots[k]) + c] +=
+                tie.weights[k] * sums[2 * std::size_t(tie.node) + c];
+        }
     nodes->add_to_owners(sums, 2);
     nodes->update_ghosts(sums, 2);
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       unknowns[std::size_t(i) * (dim + 1) + dim] =
         sums[2 * i] > 0. ? sums[2 * i + 1] / sums[2 * i] : 0.;
+    if (is_coarse)
+      ties->prolong(unknowns, dim + 1);
   }
 
 

@@ -125,10 +125,17 @@ namespace kedge
         allow.one_of({"constant", "kozeny-carman"}),
         "kozeny-carman: follows the porosity n as n^3/(1 - n)^2."},
        {"Reference gravity", "9.81", positive, "With which the conductivity was measured [m/s^2]."},
+       {"Pressure space",
+        "equal",
+        allow.one_of({"equal", "coarse"}),
+        "equal: that of the displacement, with Stabilisation. coarse: bilinear over the grid's "
+        "cells, the displacement's nodes standing half as far apart (linear, gimp: also in the "
+        "middles of their edges) or on quadratic elements; stable by itself."},
        {"Stabilisation",
-        "1",
-        allow.number(NumberRange::not_negative()),
-        "Factor of the polynomial pressure projection, times 1/(2 G) [-]; 0: none."},
+        "",
+        allow.number(NumberRange::not_negative()).or_empty(),
+        "Factor of the polynomial pressure projection, times 1/(2 G) [-]; 0: none; empty: 1 for "
+        "Pressure space = equal, none for coarse."},
        {"Surface penalty",
         "10",
         allow.number(NumberRange::positive()),

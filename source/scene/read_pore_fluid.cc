@@ -84,7 +84,17 @@ namespace kedge
     result.fluid.reference_gravity      = section.number("Reference gravity");
     result.fluid.porosity_watch =
       section.text("Lost porosity") == "stop" ? PorosityWatch::stop : PorosityWatch::warn;
-    result.stabilisation   = section.number("Stabilisation");
+    result.coarse_pressure = section.text("Pressure space") == "coarse";
+    result.stabilisation   = !section.is_empty("Stabilisation") ? section.number("Stabilisation")
+                             : result.coarse_pressure           ? 0.
+                                                                : 1.;
+    if (result.coarse_pressure && result.stabilisation > 0.)
+      throw section.error("Stabilisation",
+                          "It is made for Pressure space = equal; coarse needs none: leave it "
+                          "empty.");
+    if (!result.coarse_pressure && scene.bodies[0].basis == BasisKind::quadratic)
+      throw section.error("Pressure space",
+                          "With the quadratic basis of the bodies it must be coarse.");
     result.surface_penalty = section.number("Surface penalty");
     return result;
   }

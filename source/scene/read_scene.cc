@@ -367,14 +367,16 @@ namespace kedge
       return probes;
     }
 
-    /** Gives the grid the nodes of quadratic elements, if a body wants them. */
+    /** Gives the grid the nodes in the middles of its edges, if a basis wants them. */
     template <int dim>
     void
     set_elements(const ParameterReader &reader, Scene<dim> &scene)
     {
-      if (scene.bodies[0].basis != BasisKind::quadratic)
+      const bool is_quadratic = scene.bodies[0].basis == BasisKind::quadratic;
+      if (is_quadratic || (scene.pore_fluid && scene.pore_fluid->coarse_pressure))
+        scene.grid.node_intervals = 2;
+      if (!is_quadratic)
         return;
-      scene.grid.node_intervals = 2;
       if (scene.stabilisation.method == StabilisationKind::ghost)
         throw SectionReader(reader, {"Stabilisation"})
           .error("Method",
@@ -440,11 +442,11 @@ namespace kedge
     scene.linear_solver   = read_linear_solver(reader);
     scene.transfer        = read_mapping(reader);
     scene.stabilisation   = read_stabilisation(reader);
+    scene.pore_fluid      = read_pore_fluid<dim>(reader, scene);
     set_elements(reader, scene);
     scene.output            = read_output(reader, scene.time);
     scene.probes            = read_probes<dim>(reader);
     scene.checks            = read_checks(reader, scene.time);
-    scene.pore_fluid        = read_pore_fluid<dim>(reader, scene);
     scene.surface_pressures = read_surface_pressures<dim>(reader);
     if (scene.pore_fluid)
       scene.time.pore_theta = SectionReader(reader, {"Pore fluid"}).number("Theta");

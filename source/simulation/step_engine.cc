@@ -156,7 +156,8 @@ namespace kedge
     ties.find(background,
               step_points,
               has_ties ? scene.stabilisation.smallest_filling : 0.,
-              reached);
+              reached,
+              has_pores() && scene.pore_fluid->coarse_pressure);
     if (has_ghosts())
       ghosts.find(background, step_points, modulus_of_body, reached);
     const bool new_nodes = nodes.reinit(background, reached);

@@ -87,12 +87,13 @@ namespace kedge
       return bodies;
     }
 
-    /** Calls visit(cell) for all cells within @p ring cells of a node. */
+    /** Calls visit(cell) for all cells, @p edge intervals wide, within @p ring cells of a node. */
     template <int dim, typename Visit>
     void
     for_cells_around(const LatticeWindow<dim> &window,
                      const LatticeIndex<dim>  &node,
                      const int                 ring,
+                     const int                 edge,
                      const Visit              &visit)
     {
       LatticeIndex<dim> offset;
@@ -101,7 +102,7 @@ namespace kedge
         {
           LatticeIndex<dim> cell;
           for (int d = 0; d < dim; ++d)
-            cell[d] = node[d] + offset[d];
+            cell[d] = node[d] + edge * offset[d];
           if (window.contains_cell(cell))
             visit(cell);
           int d = 0;
@@ -114,12 +115,41 @@ namespace kedge
 
     template <int dim>
     unsigned int
-    corner(const LatticeWindow<dim> &window, const LatticeIndex<dim> &cell, const unsigned int v)
+    corner(const LatticeWindow<dim> &window,
+           const LatticeIndex<dim>  &cell,
+           const unsigned int        v,
+           const int                 edge)
     {
       LatticeIndex<dim> node = cell;
       for (int d = 0; d < dim; ++d)
-        node[d] += static_cast<int>((v >> d) & 1u);
+        node[d] += edge * static_cast<int>((v >> d) & 1u);
       return window.node_number(node);
+    }
+
+    /** Calls visit(even node, weight) for those between which a node lies. */
+    template <int dim, typename Visit>
+    void
+    for_even_nodes(const LatticeWindow<dim> &window, const unsigned int node, const Visit &visit)
+    {
+      const auto here = window.node_index(node);
+      for (unsigned int v = 0; v < (1u << dim); ++v)
+        {
+          LatticeIndex<dim> even   = here;
+          double            weight = 1.;
+          for (int d = 0; d < dim; ++d)
+            {
+              const bool is_upper = ((v >> d) & 1u) != 0;
+              if (here[d] % 2 != 0)
+                {
+                  even[d] += is_upper ? 1 : -1;
+                  weight *= 0.5;
+                }
+              else if (is_upper)
+                weight = 0.;
+            }
+          if (weight > 0.)
+            visit(window.node_number(even), weight);
+        }
     }
   } // namespace
 
@@ -127,31 +157,33 @@ namespace kedge
 
   template <int dim>
   std::vector<LatticeIndex<dim>>
-  NodeTies<dim>::nearest_cells(const LatticeWindow<dim>         &window,
-                               const std::vector<double>        &filling,
-                               const double                      threshold,
-                               const std::vector<std::uint64_t> &bodies,
-                               const unsigned int                tied_node) const
+  NodeTies<dim>::nearest_cells(const LatticeWindow<dim> &window,
+                               const Filling            &filling,
+                               const bool                of_same_body,
+                               const unsigned int        tied_node) const
   {
     const auto                     node = window.node_index(tied_node);
     std::vector<LatticeIndex<dim>> nearest;
     for (int ring = nearest_ring; ring <= farthest_ring && nearest.empty(); ++ring)
       {
         int best = std::numeric_limits<int>::max();
-        for_cells_around<dim>(window, node, ring, [&](const LatticeIndex<dim> &cell) {
+        for_cells_around<dim>(window, node, ring, filling.edge, [&](const LatticeIndex<dim> &cell) {
           int distance = 0; // four times the square of the distance to the centre
           for (int d = 0; d < dim; ++d)
-            distance += (2 * (node[d] - cell[d]) - 1) * (2 * (node[d] - cell[d]) - 1);
+            {
+              const int twice = 2 * (node[d] - cell[d]) / filling.edge - 1;
+              distance += twice * twice;
+            }
           if (distance > best)
             return;
-          std::uint64_t shared = bodies.empty() ? 1 : bodies[tied_node];
+          std::uint64_t shared = of_same_body ? filling.bodies[tied_node] : 1;
           for (unsigned int v = 0; v < (1u << dim); ++v)
             {
-              const unsigned int root = corner<dim>(window, cell, v);
-              if (filling[root] < threshold)
+              const unsigned int root = corner<dim>(window, cell, v, filling.edge);
+              if (filling.volume[root] < filling.threshold)
                 return;
-              if (!bodies.empty())
-                shared &= bodies[root];
+              if (of_same_body)
+                shared &= filling.bodies[root];
             }
           if (shared == 0)
             return;
@@ -168,16 +200,14 @@ namespace kedge
 
   template <int dim>
   bool
-  NodeTies<dim>::tie_to_nearest_cell(const LatticeWindow<dim>         &window,
-                                     const std::vector<double>        &filling,
-                                     const double                      threshold,
-                                     const std::vector<std::uint64_t> &bodies,
-                                     Tie                              &tie) const
+  NodeTies<dim>::tie_to_nearest_cell(const LatticeWindow<dim> &window,
+                                     const Filling            &filling,
+                                     Tie                      &tie) const
   {
     const auto node    = window.node_index(tie.node);
-    auto       nearest = nearest_cells(window, filling, threshold, bodies, tie.node);
-    if (nearest.empty() && !bodies.empty()) // none that a body of this node fills
-      nearest = nearest_cells(window, filling, threshold, {}, tie.node);
+    auto       nearest = nearest_cells(window, filling, !filling.bodies.empty(), tie.node);
+    if (nearest.empty() && !filling.bodies.empty()) // none that a body of this node fills
+      nearest = nearest_cells(window, filling, false, tie.node);
     // cells at the same distance share the tie, so that symmetry is kept
     std::map<unsigned int, double> weights;
     for (const auto &cell : nearest)
@@ -186,10 +216,10 @@ namespace kedge
           double weight = 1. / static_cast<double>(nearest.size());
           for (int d = 0; d < dim; ++d)
             {
-              const double xi = node[d] - cell[d];
+              const double xi = (node[d] - cell[d]) / filling.edge;
               weight *= (v >> d) & 1u ? xi : 1. - xi;
             }
-          weights[corner<dim>(window, cell, v)] += weight;
+          weights[corner<dim>(window, cell, v, filling.edge)] += weight;
         }
     for (const auto &[root, weight] : weights)
       if (weight != 0.)
@@ -202,38 +232,139 @@ namespace kedge
 
 
 
+  /** Interpolates between even nodes and ties those with little around them to whole cells. */
+  template <int dim>
+  void
+  NodeTies<dim>::tie_pressures(const BackgroundGrid<dim>        &grid,
+                               const Filling                    &filling,
+                               const std::vector<unsigned char> &reached)
+  {
+    const auto        &window  = grid.window();
+    const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+    const unsigned int n_nodes = static_cast<unsigned int>(reached.size());
+    Filling            whole{std::vector<double>(n_nodes, 0.),
+                  std::vector<std::uint64_t>(filling.bodies.size(), 0),
+                  filling.threshold,
+                  2};
+    std::vector<bool>  used(n_nodes, false);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        if (filling.volume[node] == 0.)
+          continue;
+        const bool is_here = reached[node] || grid.node_owner(node) == rank;
+        Tie        tie{node, {}, {}, 1u << dim, true};
+        for_even_nodes<dim>(window, node, [&](const unsigned int even, const double weight) {
+          tie.roots.push_back(even);
+          tie.weights.push_back(weight);
+          whole.volume[even] += weight * filling.volume[node] / (1 << dim);
+          if (!filling.bodies.empty())
+            whole.bodies[even] |= filling.bodies[node];
+          if (is_here)
+            used[even] = true;
+        });
+        if (is_here && tie.roots.front() != node)
+          window_ties.push_back(std::move(tie));
+      }
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      if (whole.volume[node] > 0. && whole.volume[node] < filling.threshold &&
+          (used[node] || grid.node_owner(node) == rank))
+        {
+          Tie tie{node, {}, {}, 1u << dim};
+          if (tie_to_nearest_cell(window, whole, tie))
+            window_ties.push_back(std::move(tie));
+        }
+  }
+
+
+
   template <int dim>
   void
   NodeTies<dim>::find(const BackgroundGrid<dim>  &grid,
                       const StepPoints<dim>      &points,
                       const double                threshold,
-                      std::vector<unsigned char> &reached)
+                      std::vector<unsigned char> &reached,
+                      const bool                  coarse_pressure)
   {
-    const std::vector<Tie> before = std::move(window_ties);
+    const std::vector<Tie>  ties_before  = std::move(window_ties);
+    const std::vector<bool> moves_before = std::move(moves);
     window_ties.clear();
-    if (threshold > 0.)
+    moves.clear();
+    if (threshold > 0. || coarse_pressure)
       {
-        const std::vector<double> filling = nodal_filling(grid, points, reached);
-        const auto                bodies  = bodies_at_nodes(grid, points);
+        const Filling      filling{nodal_filling(grid, points, reached),
+                              bodies_at_nodes(grid, points),
+                              threshold,
+                              1};
         const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+        const unsigned int components = (1u << (coarse_pressure ? dim : dim + 1)) - 1;
         // the owner of a tied node must know it too, even if none of its points reach it
         for (unsigned int node = 0; node < reached.size(); ++node)
-          if (filling[node] > 0. && filling[node] < threshold &&
+          if (filling.volume[node] > 0. && filling.volume[node] < threshold &&
               (reached[node] || grid.node_owner(node) == rank))
             {
-              Tie tie{node, {}, {}, 0};
-              if (tie_to_nearest_cell(grid.window(), filling, threshold, bodies, tie))
+              Tie tie{node, {}, {}, components};
+              if (tie_to_nearest_cell(grid.window(), filling, tie))
                 window_ties.push_back(std::move(tie));
             }
+        if (coarse_pressure)
+          {
+            tie_pressures(grid, filling, reached);
+            moves.resize(reached.size());
+            for (unsigned int node = 0; node < reached.size(); ++node)
+              moves[node] = filling.volume[node] != 0.;
+          }
         for (const Tie &tie : window_ties)
           for (const unsigned int root : tie.roots)
             reached[root] = 1;
       }
-    changed_ = window_ties.size() != before.size();
+    changed_ = window_ties.size() != ties_before.size() || moves != moves_before;
     for (unsigned int i = 0; i < window_ties.size() && !changed_; ++i)
-      changed_ = window_ties[i].node != before[i].node || window_ties[i].roots != before[i].roots;
+      changed_ = window_ties[i].node != ties_before[i].node ||
+                 window_ties[i].components != ties_before[i].components ||
+                 window_ties[i].roots != ties_before[i].roots;
     if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
       changed_ = dealii::Utilities::MPI::logical_or(changed_, grid.communicator());
+  }
+
+
+
+  /** Corners that no point reaches are there for the pressure: their displacement stays zero. */
+  template <int dim>
+  void
+  NodeTies<dim>::tie_corners_without_motion(const ActiveNodes<dim> &nodes)
+  {
+    for (unsigned int i = 0; i < nodes.n_local() && !moves.empty(); ++i)
+      if (!moves[nodes.window_node(i)])
+        {
+          tie_numbers[2 * std::size_t(i)] = static_cast<int>(local_ties.size());
+          local_ties.push_back({i, {}, {}, (1u << dim) - 1});
+        }
+  }
+
+
+
+  /** Puts the roots of tied corners in the place of the corners. */
+  template <int dim>
+  void
+  NodeTies<dim>::follow_tied_corners(Tie &tie) const
+  {
+    std::map<unsigned int, double> weights;
+    for (unsigned int k = 0; k < tie.roots.size(); ++k)
+      if (!is_tied(tie.roots[k], dim))
+        weights[tie.roots[k]] += tie.weights[k];
+      else
+        {
+          const Tie &corner = local_ties[tie_of(tie.roots[k], dim)];
+          for (unsigned int r = 0; r < corner.roots.size(); ++r)
+            weights[corner.roots[r]] += tie.weights[k] * corner.weights[r];
+        }
+    tie.roots.clear();
+    tie.weights.clear();
+    for (const auto &[root, weight] : weights)
+      {
+        tie.roots.push_back(root);
+        tie.weights.push_back(weight);
+      }
   }
 
 
@@ -244,21 +375,28 @@ namespace kedge
   {
     local_ties = window_ties;
     tie_numbers.clear();
-    if (!local_ties.empty())
-      tie_numbers.assign(nodes.n_local(), -1);
+    if (!local_ties.empty() || !moves.empty())
+      tie_numbers.assign(2 * std::size_t(nodes.n_local()), -1);
     for (unsigned int i = 0; i < local_ties.size(); ++i)
       {
         Tie &tie = local_ties[i];
         tie.node = nodes.local(tie.node);
         for (unsigned int &root : tie.roots)
           root = nodes.local(root);
+        if ((tie.components & 1u) != 0)
+          tie_numbers[2 * std::size_t(tie.node)] = static_cast<int>(i);
+        if (((tie.components >> dim) & 1u) != 0)
+          tie_numbers[2 * std::size_t(tie.node) + 1] = static_cast<int>(i);
         for (int d = 0; d < dim; ++d)
-          if (!conditions.prescribed(tie.node, d))
-            tie.components |= 1u << d;
-        if (!conditions.pressure_prescribed(tie.node))
-          tie.components |= 1u << dim;
-        tie_numbers[tie.node] = static_cast<int>(i);
+          if (conditions.prescribed(tie.node, d))
+            tie.components &= ~(1u << d);
+        if (!tie.interpolates && conditions.pressure_prescribed(tie.node))
+          tie.components &= ~(1u << dim);
       }
+    for (Tie &tie : local_ties)
+      if (tie.interpolates)
+        follow_tied_corners(tie);
+    tie_corners_without_motion(nodes);
   }
 
 

@@ -9,24 +9,60 @@ namespace kedge
   TiedRows<dim>::add_couplings(const NodeTies<dim> &ties,
                                const unsigned int   slot,
                                const unsigned int   neighbour,
-                               const unsigned int   components)
+                               const Part          &part)
   {
-    const Row &row = rows.back();
-    const auto add = [&](const unsigned int node, const double weight) {
-      if (mark[node] != row.node + 1)
+    const Row         &row    = rows.back();
+    const unsigned int number = rows.size();
+    const auto         add    = [&](const unsigned int node, const double weight) {
+      if (mark[node] != number)
         {
-          mark[node]            = row.node + 1;
+          mark[node]            = number;
           place_of_column[node] = columns.size() - row.first_column;
           columns.push_back(node);
         }
-      couplings.push_back({slot, place_of_column[node], components, weight});
+      couplings.push_back({slot, place_of_column[node], part.components, weight});
     };
-    const int tie = ties.tie_of(neighbour);
-    if (tie < 0)
+    if (part.tie < 0)
       add(neighbour, 1.);
     else
-      for (unsigned int k = 0; k < ties.ties()[tie].roots.size(); ++k)
-        add(ties.ties()[tie].roots[k], ties.ties()[tie].weights[k]);
+      for (unsigned int k = 0; k < ties.ties()[part.tie].roots.size(); ++k)
+        add(ties.ties()[part.tie].roots[k], ties.ties()[part.tie].weights[k]);
+  }
+
+
+
+  template <int dim>
+  void
+  TiedRows<dim>::add_row(const LatticeWindow<dim> &window,
+                         const ActiveNodes<dim>   &nodes,
+                         const NodeTies<dim>      &ties,
+                         const std::vector<Parts> &parts,
+                         const NodeMatrix<dim>    &matrix,
+                         const unsigned int        node,
+                         const Part               &part)
+  {
+    const auto first_column   = static_cast<unsigned int>(columns.size());
+    const auto first_coupling = static_cast<unsigned int>(couplings.size());
+    rows.push_back({node, part.components, first_column, 0, first_coupling, 0});
+    for_neighbours(window, nodes, node, matrix, [&](const unsigned int slot, const unsigned int j) {
+      for (const Part &other : parts[j])
+        if (other.components != 0 && (part.tie >= 0 || other.tie >= 0))
+          add_couplings(ties, slot, j, other);
+    });
+    rows.back().end_column   = static_cast<unsigned int>(columns.size());
+    rows.back().end_coupling = static_cast<unsigned int>(couplings.size());
+    if (rows.back().end_column == first_column)
+      {
+        rows.pop_back();
+        return;
+      }
+    const auto number = static_cast<unsigned int>(rows.size() - 1);
+    if (part.tie < 0)
+      all_feeds.push_back({node, number, 1.});
+    else
+      for (unsigned int k = 0; k < ties.ties()[part.tie].roots.size(); ++k)
+        all_feeds.push_back(
+          {ties.ties()[part.tie].roots[k], number, ties.ties()[part.tie].weights[k]});
   }
 
 
@@ -48,41 +84,23 @@ namespace kedge
       return;
     mark.assign(nodes.n_local(), 0);
     place_of_column.resize(nodes.n_local());
-    std::vector<unsigned int> components(nodes.n_local(), 0);
-    for (unsigned int i = 0; i < nodes.n_local() * n_components; ++i)
-      if (status[i] != NodalStatus::prescribed)
-        components[i / n_components] |= 1u << (i % n_components);
-
+    std::vector<Parts> parts(nodes.n_local(), Parts{{{-1, 0}, {-1, 0}, {-1, 0}}});
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      {
-        const auto first_column   = static_cast<unsigned int>(columns.size());
-        const auto first_coupling = static_cast<unsigned int>(couplings.size());
-        const int  tie            = ties.tie_of(i);
-        rows.push_back({i, components[i], first_column, 0, first_coupling, 0});
-        for_neighbours(window,
-                       nodes,
-                       i,
-                       matrix,
-                       [&](const unsigned int slot, const unsigned int j) {
-                         if (tie >= 0 || ties.tie_of(j) >= 0)
-                           add_couplings(ties, slot, j, components[j]);
-                       });
-        rows.back().end_column   = static_cast<unsigned int>(columns.size());
-        rows.back().end_coupling = static_cast<unsigned int>(couplings.size());
-        if (rows.back().end_column == first_column || components[i] == 0)
-          {
-            columns.resize(first_column);
-            couplings.resize(first_coupling);
-            rows.pop_back();
+      for (unsigned int c = 0; c < n_components; ++c)
+        {
+          const NodalStatus s = status[std::size_t(i) * n_components + c];
+          if (s == NodalStatus::prescribed)
             continue;
-          }
-        const auto number = static_cast<unsigned int>(rows.size() - 1);
-        if (tie < 0)
-          all_feeds.push_back({i, number, 1.});
-        else
-          for (unsigned int k = 0; k < ties.ties()[tie].roots.size(); ++k)
-            all_feeds.push_back({ties.ties()[tie].roots[k], number, ties.ties()[tie].weights[k]});
-      }
+          const int  tie   = s == NodalStatus::tied ? ties.tie_of(i, static_cast<int>(c)) : -1;
+          const bool apart = c == dim && tie != ties.tie_of(i);
+          Part      &part  = parts[i][tie < 0 ? 0 : apart ? 2 : 1];
+          part.tie         = tie;
+          part.components |= 1u << c;
+        }
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      for (const Part &part : parts[i])
+        if (part.components != 0)
+          add_row(window, nodes, ties, parts, matrix, i, part);
     std::stable_sort(all_feeds.begin(), all_feeds.end(), [](const Feed &a, const Feed &b) {
       return a.node < b.node;
     });

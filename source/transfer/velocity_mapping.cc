@@ -61,7 +61,7 @@ namespace kedge
         std::vector<NodalStatus> status(nodes.n_local());
         for (unsigned int i = 0; i < nodes.n_local(); ++i)
           status[i] = conditions.prescribed(i, d) ? NodalStatus::prescribed
-                      : ties.tie_of(i) >= 0       ? NodalStatus::tied
+                      : ties.tie_of(i, d) >= 0    ? NodalStatus::tied
                                                   : NodalStatus::free;
         unsigned int c = 0;
         int          same;
@@ -93,9 +93,13 @@ namespace kedge
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       for (unsigned int s = 0; s < mass.n_slots(); ++s)
         lumped[i] += std::abs(mass.row(i, 0)[s]);
-    for (const auto &tie : ties.ties())
-      for (unsigned int k = 0; k < tie.roots.size(); ++k)
-        lumped[tie.roots[k]] += std::abs(tie.weights[k]) * lumped[tie.node];
+    for (unsigned int t = 0; t < ties.ties().size(); ++t)
+      {
+        const auto &tie = ties.ties()[t];
+        if (ties.tie_of(tie.node) == static_cast<int>(t)) // not of pressures alone
+          for (unsigned int k = 0; k < tie.roots.size(); ++k)
+            lumped[tie.roots[k]] += std::abs(tie.weights[k]) * lumped[tie.node];
+      }
     nodes.add_to_owners(lumped, 1);
     inverse_lumped.assign(lumped.size() * dim, 0.);
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)

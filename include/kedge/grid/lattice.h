@@ -14,8 +14,9 @@ namespace kedge
   /**
    * The Cartesian geometry of the background grid's nodes. Cell c covers
    * [origin + c h, origin + (c+1) h]; node i stands at origin + i h. Quadratic
-   * elements have a node in the middle of their edges: each is made of 2^dim
-   * cells of the lattice and begins at an even one.
+   * elements, and cells that carry the pore pressure alone, have a node in the
+   * middle of their edges: each is made of 2^dim cells of the lattice and begins
+   * at an even one.
    */
   template <int dim>
   struct Lattice

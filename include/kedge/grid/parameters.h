@@ -17,7 +17,8 @@ namespace kedge
     dealii::Point<dim>            origin;
     dealii::Tensor<1, dim>        extent;
     std::array<unsigned int, dim> n_cells;
-    unsigned int node_intervals = 1; ///< between the ends of a cell's edge; quadratic elements: 2
+    unsigned int                  node_intervals =
+      1; ///< between the ends of a cell's edge; elements of second order: 2
   };
 
   /** What a node condition does with one displacement component. */

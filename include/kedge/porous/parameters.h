@@ -10,8 +10,9 @@ namespace kedge
   /** The fluid that saturates all bodies of a scene, and how its pressure is stabilised. */
   struct PorousParameters
   {
-    PoreFluidParameters fluid;             ///< but the initial porosity, which a material has
-    double              stabilisation = 1; ///< of (4.179): tau = stabilisation/(2 G) [-]
+    PoreFluidParameters fluid;                   ///< but the initial porosity, which a material has
+    bool                coarse_pressure = false; ///< whether it lives at the cells' corners alone
+    double              stabilisation   = 1;     ///< of (4.179): tau = stabilisation/(2 G) [-]
     double surface_penalty = 10; ///< of SurfacePressures, times conductivity over cell size [-]
   };
 

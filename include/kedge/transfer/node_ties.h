@@ -16,6 +16,12 @@ namespace kedge
    * nearby, of any well-filled cell. In matrix form u = C u^; residuals become C^T r, matrices C^T
    * A C. As C reproduces linear fields, both momenta are conserved, and as mass, residual and
    * motion use the same C, so is energy.
+   *
+   * On a lattice with two intervals along a cell's edge the pore pressure may
+   * live at the corners of whole cells alone, the even nodes. It is bilinear
+   * over them: at the other nodes it is tied to their mean, whatever is
+   * prescribed there, and badly filled corners are tied to whole cells. Corners
+   * that only the pressure needs have displacement ties without roots.
    */
   template <int dim>
   class NodeTies
@@ -27,6 +33,7 @@ namespace kedge
       std::vector<unsigned int> roots;
       std::vector<double>       weights;
       unsigned int components; ///< bit d: component d is tied (not prescribed); dim: the pressure
+      bool         interpolates = false; ///< the pressure between the corners of whole cells
     };
 
     /**
@@ -35,12 +42,14 @@ namespace kedge
      *
      * @param threshold smallest volume of material, in cells, that carries a
      *                  node; 0 ties nothing
+     * @param coarse_pressure whether the pressure lives at even nodes alone
      */
     void
     find(const BackgroundGrid<dim>  &grid,
          const StepPoints<dim>      &points,
          const double                threshold,
-         std::vector<unsigned char> &reached);
+         std::vector<unsigned char> &reached,
+         const bool                  coarse_pressure = false);
 
     /** Goes over to local node numbers and leaves prescribed components alone. */
     void
@@ -71,11 +80,22 @@ namespace kedge
       return local_ties;
     }
 
-    /** Position in ties() of a local node, or -1. */
+    /**
+     * Position in ties() of a local node's component, or -1; of the components
+     * with a tie those are tied that are not prescribed, see is_tied().
+     */
     int
-    tie_of(const unsigned int local_node) const
+    tie_of(const unsigned int local_node, const int component = 0) const
     {
-      return tie_numbers.empty() ? -1 : tie_numbers[local_node];
+      return tie_numbers.empty() ? -1
+                                 : tie_numbers[2 * std::size_t(local_node) + (component == dim)];
+    }
+
+    bool
+    is_tied(const unsigned int local_node, const int component) const
+    {
+      const int tie = tie_of(local_node, component);
+      return tie >= 0 && ((local_ties[tie].components >> component) & 1u) != 0;
     }
 
     bool
@@ -85,22 +105,35 @@ namespace kedge
     }
 
   private:
-    std::vector<LatticeIndex<dim>>
-    nearest_cells(const LatticeWindow<dim>         &window,
-                  const std::vector<double>        &filling,
-                  const double                      threshold,
-                  const std::vector<std::uint64_t> &bodies,
-                  const unsigned int                tied_node) const;
-    bool
-    tie_to_nearest_cell(const LatticeWindow<dim>         &window,
-                        const std::vector<double>        &filling,
-                        const double                      threshold,
-                        const std::vector<std::uint64_t> &bodies,
-                        Tie                              &tie) const;
+    /** Where well-filled cells are, one array entry per node of the window. */
+    struct Filling
+    {
+      std::vector<double>        volume; ///< of material, in cells; not 0 if any rank reaches it
+      std::vector<std::uint64_t> bodies; ///< that reach it; empty if there is only one
+      double                     threshold;
+      int                        edge; ///< of a cell, in intervals of the lattice
+    };
 
-    std::vector<Tie> window_ties, local_ties;
-    std::vector<int> tie_numbers;
-    bool             changed_ = false;
+    std::vector<LatticeIndex<dim>>
+    nearest_cells(const LatticeWindow<dim> &window,
+                  const Filling            &filling,
+                  const bool                of_same_body,
+                  const unsigned int        tied_node) const;
+    bool
+    tie_to_nearest_cell(const LatticeWindow<dim> &window, const Filling &filling, Tie &tie) const;
+    void
+    tie_pressures(const BackgroundGrid<dim>        &grid,
+                  const Filling                    &filling,
+                  const std::vector<unsigned char> &reached);
+    void
+    tie_corners_without_motion(const ActiveNodes<dim> &nodes);
+    void
+    follow_tied_corners(Tie &tie) const;
+
+    std::vector<Tie>  window_ties, local_ties;
+    std::vector<int>  tie_numbers; ///< of each local node's displacement and pressure, or -1
+    std::vector<bool> moves;       ///< window nodes that any rank reaches; empty: all nodes in use
+    bool              changed_ = false;
   };
 } // namespace kedge
 

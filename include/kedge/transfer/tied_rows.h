@@ -16,9 +16,9 @@ namespace kedge
 
   /**
    * The first half of C^T A C: the rows of A C that differ from those of A,
-   * and which nodes they belong to in C^T. A row of a tied node is whole, one
-   * of another node holds only what comes from its tied neighbours. Only this
-   * rank's share of A is multiplied.
+   * and which nodes they belong to in C^T. A row of tied components is whole, one
+   * of others holds only what comes from tied neighbours. Only this rank's share
+   * of A is multiplied.
    */
   template <int dim>
   class TiedRows
@@ -28,7 +28,7 @@ namespace kedge
     struct Row
     {
       unsigned int node;
-      unsigned int components; ///< bit p: component p is not prescribed
+      unsigned int components; ///< bit p: of component p
       unsigned int first_column, end_column;
       unsigned int first_coupling, end_coupling;
     };
@@ -86,9 +86,17 @@ namespace kedge
     {
       unsigned int slot;
       unsigned int column;     ///< counted from the row's first
-      unsigned int components; ///< bit m: component m of the neighbour is not prescribed
+      unsigned int components; ///< bit m: of component m of the neighbour
       double       weight;
     };
+
+    /** Components of a node with one tie, or the free ones (tie -1). */
+    struct Part
+    {
+      int          tie;
+      unsigned int components;
+    };
+    using Parts = std::array<Part, 3>; ///< free, displacement, pressure
 
     std::size_t
     first_value(const Row &row, const unsigned int p) const
@@ -98,10 +106,18 @@ namespace kedge
     }
 
     void
+    add_row(const LatticeWindow<dim> &window,
+            const ActiveNodes<dim>   &nodes,
+            const NodeTies<dim>      &ties,
+            const std::vector<Parts> &parts,
+            const NodeMatrix<dim>    &matrix,
+            const unsigned int        node,
+            const Part               &part);
+    void
     add_couplings(const NodeTies<dim> &ties,
                   const unsigned int   slot,
                   const unsigned int   neighbour,
-                  const unsigned int   components);
+                  const Part          &part);
 
     unsigned int              n_components = 0;
     std::vector<Row>          rows;
