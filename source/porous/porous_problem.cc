@@ -12,15 +12,6 @@ namespace kedge
 
     /** A tangent worse than this may be why Newton's method fails. */
     constexpr double suspicious_condition = 1e12;
-
-    /** The multigrid of the solid knows nothing of pressures. */
-    LinearSolverParameters
-    for_mixed_unknowns(LinearSolverParameters parameters, const int dim)
-    {
-      if (parameters.kind == LinearSolverKind::automatic && dim == 3)
-        parameters.kind = LinearSolverKind::direct;
-      return parameters;
-    }
   } // namespace
 
 
@@ -32,16 +23,17 @@ namespace kedge
                                     const double                    surface_penalty,
                                     const Scheme                   &scheme,
                                     const LinearSolverParameters   &parameters,
-                                    const double                    p_wave_modulus,
+                                    const std::vector<double>      &p_wave_modulus_of_body,
                                     const std::vector<std::string> &body_names)
     : porous_force(force)
     , loads(loads)
     , surfaces(surfaces)
     , surface_penalty(surface_penalty)
     , scheme(scheme)
-    , modulus(p_wave_modulus)
+    , modulus_of_body(p_wave_modulus_of_body)
+    , modulus(*std::max_element(modulus_of_body.begin(), modulus_of_body.end()))
     , body_names(body_names)
-    , linear_solver(for_mixed_unknowns(parameters, dim), {dim, false, false})
+    , linear_solver(parameters, {dim, false, false, true})
   {}
 
 
@@ -58,12 +50,12 @@ namespace kedge
                              const int  stiffness_radius,
                              const bool new_pattern)
   {
-    this->grid       = &grid;
-    this->nodes      = &nodes;
-    this->conditions = &conditions;
-    this->ties       = &ties;
-    this->points     = &points;
-    cell_size        = grid.lattice().smallest_cell_size();
+    this->grid         = &grid;
+    this->nodes        = &nodes;
+    this->conditions   = &conditions;
+    this->ties         = &ties;
+    this->points       = &points;
+    cell_size          = grid.lattice().smallest_cell_size();
     if (!new_pattern)
       return;
     constexpr int n = dim + 1;
@@ -80,6 +72,7 @@ namespace kedge
         }
     equations.reinit(grid, nodes, ties, status, tangent);
     linear_solver.pattern_changed();
+    blocks_have_pattern = false;
   }
 
 
@@ -103,6 +96,8 @@ namespace kedge
     warning_.clear();
     condition        = 0.;
     weakest_equation = -1;
+    linear_tolerance   = 0.;
+    blocks_have_values = false;
     unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
     residual.resize(unknowns.size());
     outflow.resize(surfaces.pressures(t_n).size());
@@ -282,6 +277,32 @@ namespace kedge
     tangent.set_zero();
     porous_force.add_tangent(*points, pores, grid->window(), *nodes, trial(), tangent);
     equations.fill(*nodes, tangent);
+    if (linear_solver.choose(equations.system()) == LinearSolverKind::krylov_blocks)
+      assemble_blocks();
+  }
+
+
+
+  /** At the first tangent of a step; the preconditioner needs no more. */
+  template <int dim>
+  void
+  PorousProblem<dim>::assemble_blocks()
+  {
+    if (!blocks_have_pattern)
+      blocks.reinit(*grid, *nodes, *ties, status, equations, tangent.radius());
+    blocks_have_pattern = true;
+    if (blocks_have_values)
+      return;
+    const double factor  = porous_force.scheme().content_factor();
+    const double inertia = scheme.dynamic ? scheme.inertia_coefficient(dt) : 0.;
+    blocks.assemble(*points,
+                    grid->window(),
+                    *nodes,
+                    modulus_of_body,
+                    factor / scheme.alpha_f,
+                    inertia > 0. ? factor / inertia : 0.);
+    blocks_have_values = true;
+    linear_solver.set_blocks(blocks.blocks());
   }
 
 
@@ -314,7 +335,7 @@ namespace kedge
         largest_condition_ = std::max(largest_condition_, condition);
       }
     if (answer.success)
-      answer = linear_solver.solve(right_side, solution);
+      answer = linear_solver.solve(right_side, solution, linear_tolerance);
     if (!answer.success)
       return answer;
     equations.scatter(solution, correction);

@@ -278,7 +278,8 @@ namespace kedge
         {"banded", LinearSolverKind::banded},
         {"direct", LinearSolverKind::direct},
         {"krylov-ilu", LinearSolverKind::krylov_ilu},
-        {"krylov-amg", LinearSolverKind::krylov_amg}};
+        {"krylov-amg", LinearSolverKind::krylov_amg},
+        {"krylov-blocks", LinearSolverKind::krylov_blocks}};
 
       const SectionReader    section(reader, {"Linear solver"});
       LinearSolverParameters solver;

@@ -36,9 +36,9 @@ namespace kedge
         scheme,
         scene.linear_solver,
         body_names);
-    double modulus = 0.;
+    std::vector<double> moduli;
     for (const Material &material : material_of_body)
-      modulus = std::max(modulus, p_wave_modulus(material));
+      moduli.push_back(p_wave_modulus(material));
     auto problem = std::make_unique<PorousProblem<dim>>(
       PorousForce<dim>(material_of_body, soils_of_bodies(), scheme.alpha_f, PoreScheme(scene.time)),
       loads,
@@ -46,7 +46,7 @@ namespace kedge
       scene.pore_fluid->surface_penalty,
       scheme,
       scene.linear_solver,
-      modulus,
+      moduli,
       body_names);
     porous = problem.get();
     return problem;

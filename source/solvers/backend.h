@@ -20,6 +20,11 @@ namespace kedge
           std::vector<double>       &x,
           const double               tolerance,
           const unsigned int         max_iterations) = 0;
+
+    /** Whatever is kept of earlier matrices must not be used for the next. */
+    virtual void
+    forget()
+    {}
   };
 
   std::unique_ptr<LinearSolver::Backend>
@@ -30,6 +35,10 @@ namespace kedge
 
   std::unique_ptr<LinearSolver::Backend>
   make_krylov_backend(const MatrixTraits &traits, const bool multigrid);
+
+  /** @p blocks must last as long as the backend; their matrices may change with each system. */
+  std::unique_ptr<LinearSolver::Backend>
+  make_mixed_backend(const MixedBlocks &blocks);
 } // namespace kedge
 
 #endif

@@ -55,13 +55,17 @@ namespace kedge
                               ForEachPoint<dim, Visit>{points, window, nodes, visit, &batch});
     }
 
-    /** Assembles the mass of a batch; points with the same nodes are summed first. */
-    template <int dim>
-    struct AssembleMass
+    /**
+     * Assembles sum_p w N_A N_B of a batch, or that of the gradients; points with
+     * the same nodes are summed first.
+     */
+    template <int dim, bool of_gradients>
+    struct AssembleProducts
     {
       const StepPoints<dim>                 &points;
       const LatticeWindow<dim>              &window;
       const ActiveNodes<dim>                &nodes;
+      const std::vector<double>             &weights;
       NodeMatrix<dim>                       &mass;
       const typename StepPoints<dim>::Batch *batch;
 
@@ -81,12 +85,19 @@ namespace kedge
             for (; slot < batch->end && points.stencil[slot].first_node == first; ++slot)
               {
                 const auto basis = expand<dim, pattern>(points.stencil[slot]);
-                for (int A = 0; A < n; ++A)
-                  {
-                    const double mN = points.mass[slot] * basis.value[A];
-                    for (int B = 0; B < n; ++B)
-                      sum[A][B] += mN * basis.value[B];
-                  }
+                const auto add   = [&](const double *factor) {
+                  for (int A = 0; A < n; ++A)
+                    {
+                      const double weighted = weights[slot] * factor[A];
+                      for (int B = 0; B < n; ++B)
+                        sum[A][B] += weighted * factor[B];
+                    }
+                };
+                if constexpr (of_gradients)
+                  for (int d = 0; d < dim; ++d)
+                    add(basis.gradient[d]);
+                else
+                  add(basis.value);
               }
             const auto local = local_nodes<dim, pattern>(nodes, offsets, first);
             for (int A = 0; A < n; ++A)
@@ -109,9 +120,41 @@ namespace kedge
                 const ActiveNodes<dim>   &nodes,
                 NodeMatrix<dim>          &mass)
   {
+    assemble_mass(points, window, nodes, points.mass, mass);
+  }
+
+
+
+  template <int dim>
+  void
+  assemble_mass(const StepPoints<dim>     &points,
+                const LatticeWindow<dim>  &window,
+                const ActiveNodes<dim>    &nodes,
+                const std::vector<double> &weights,
+                NodeMatrix<dim>           &mass)
+  {
     mass.set_zero();
     for (const auto &batch : points.batches)
-      dispatch_pattern<dim>(batch.pattern, AssembleMass<dim>{points, window, nodes, mass, &batch});
+      dispatch_pattern<dim>(
+        batch.pattern,
+        AssembleProducts<dim, false>{points, window, nodes, weights, mass, &batch});
+  }
+
+
+
+  template <int dim>
+  void
+  assemble_laplacian(const StepPoints<dim>     &points,
+                     const LatticeWindow<dim>  &window,
+                     const ActiveNodes<dim>    &nodes,
+                     const std::vector<double> &weights,
+                     NodeMatrix<dim>           &laplacian)
+  {
+    laplacian.set_zero();
+    for (const auto &batch : points.batches)
+      dispatch_pattern<dim>(
+        batch.pattern,
+        AssembleProducts<dim, true>{points, window, nodes, weights, laplacian, &batch});
   }
 
 
@@ -315,6 +358,16 @@ namespace kedge
                               const LatticeWindow<dim> &,                        \
                               const ActiveNodes<dim> &,                          \
                               NodeMatrix<dim> &);                                \
+  template void assemble_mass(const StepPoints<dim> &,                           \
+                              const LatticeWindow<dim> &,                        \
+                              const ActiveNodes<dim> &,                          \
+                              const std::vector<double> &,                       \
+                              NodeMatrix<dim> &);                                \
+  template void assemble_laplacian(const StepPoints<dim> &,                      \
+                                   const LatticeWindow<dim> &,                   \
+                                   const ActiveNodes<dim> &,                     \
+                                   const std::vector<double> &,                  \
+                                   NodeMatrix<dim> &);                           \
   template void blend_mass(const double, NodeMatrix<dim> &, const unsigned int); \
   template void add_to_nodes(const StepPoints<dim> &,                            \
                              const LatticeWindow<dim> &,                         \

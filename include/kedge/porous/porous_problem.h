@@ -2,6 +2,7 @@
 #define kedge_porous_porous_problem_h
 
 #include <kedge/porous/porous_force.h>
+#include <kedge/porous/pressure_blocks.h>
 #include <kedge/solid/balance.h>
 #include <kedge/solid/external_loads.h>
 #include <kedge/time_integration/scheme.h>
@@ -39,7 +40,7 @@ namespace kedge
                   const double                    surface_penalty,
                   const Scheme                   &scheme,
                   const LinearSolverParameters   &parameters,
-                  const double                    p_wave_modulus,
+                  const std::vector<double>      &p_wave_modulus_of_body,
                   const std::vector<std::string> &body_names);
 
     /** Mass and ghost stiffness are not used: the points carry the mixture's mass. */
@@ -63,6 +64,12 @@ namespace kedge
 
     NewtonProblem::Evaluation
     evaluate() override;
+
+    void
+    set_linear_tolerance(const double tolerance) override
+    {
+      linear_tolerance = tolerance;
+    }
 
     LinearStatus
     solve_correction(double &norm, const bool keep_tangent) override;
@@ -141,6 +148,8 @@ namespace kedge
              const double               t_pressure) const;
     void
     assemble_tangent();
+    void
+    assemble_blocks();
     double
     weight(const unsigned int nodal_index) const;
     std::string
@@ -153,7 +162,8 @@ namespace kedge
     const SurfacePressures<dim>   &surfaces;
     const double                   surface_penalty;
     const Scheme                   scheme;
-    const double                   modulus;
+    const std::vector<double>      modulus_of_body;
+    const double                   modulus; ///< the largest
     const std::vector<std::string> body_names;
     LinearSolver                   linear_solver;
 
@@ -170,6 +180,9 @@ namespace kedge
 
     NodeMatrix<dim>          tangent;
     EquationSystem<dim>      equations;
+    PressureBlocks<dim>      blocks;
+    bool                     blocks_have_pattern = false, blocks_have_values = false;
+    double                   linear_tolerance = 0.;
     std::vector<NodalStatus> status;
     std::vector<double>      unknowns, residual, correction; ///< dim + 1 per node
     std::vector<double>      acceleration;

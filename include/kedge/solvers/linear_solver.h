@@ -1,6 +1,7 @@
 #ifndef kedge_solvers_linear_solver_h
 #define kedge_solvers_linear_solver_h
 
+#include <kedge/solvers/mixed_blocks.h>
 #include <kedge/solvers/parameters.h>
 #include <kedge/solvers/sparse_system.h>
 
@@ -40,13 +41,14 @@ namespace kedge
     int  space_dimension      = 2;
     bool positive_definite    = false; ///< symmetric positive definite
     bool dominated_by_inertia = false; ///< well conditioned: ILU will do
+    bool mixed                = false; ///< displacements and pressures
   };
 
   /**
    * Solves sparse systems, choosing the method by what it is expected to cost:
    * band Cholesky or band LU for narrow matrices, UMFPACK for others, GMRES
-   * with ILU(0) or algebraic multigrid (ML) for large ones, whose every part
-   * but the last works on all ranks. Rows and columns are scaled by
+   * with ILU(0) or algebraic multigrid (ML) for large ones, by blocks if they
+   * mix displacements and pressures. GMRES works on all ranks. Rows and columns are scaled by
    * 1/sqrt|diagonal| first, so that nodes of little mass do no harm. Direct
    * methods gather the system on rank 0. Chosen by `automatic`, an iterative
    * method that costs more than a direct one leaves the system to that.
@@ -63,6 +65,21 @@ namespace kedge
     /** Announces a new pattern; the next factorise() analyses it. */
     void
     pattern_changed();
+
+    /**
+     * The method for systems of this pattern (collective). Of `krylov_blocks`,
+     * which needs set_blocks() before factorise(), callers should know.
+     */
+    LinearSolverKind
+    choose(const SparseSystem &system);
+
+    /**
+     * Says what the equations mean; refers to @p blocks, whose components and
+     * positions change with the pattern only. A preconditioner that was kept
+     * of earlier matrices is given up: to be called at the start of a step.
+     */
+    void
+    set_blocks(const MixedBlocks &blocks);
 
     /**
      * Prepares the solution with the values of @p system (collective), which
@@ -95,7 +112,9 @@ namespace kedge
     LinearSolverParameters   parameters;
     MatrixTraits             traits;
     LinearSolverKind         chosen      = LinearSolverKind::automatic;
-    bool                     new_pattern = true;
+    bool                     new_pattern = true; ///< not yet seen by the backend
+    bool                     to_choose   = true;
+    const MixedBlocks       *blocks      = nullptr;
     std::unique_ptr<Backend> backend;
 
     const SparseSystem      *system         = nullptr; ///< of the last factorise()

@@ -16,7 +16,8 @@ namespace kedge
     banded, ///< LAPACK's band LU
     direct, ///< UMFPACK
     krylov_ilu,
-    krylov_amg
+    krylov_amg,
+    krylov_blocks ///< for displacements and pressures
   };
 
   struct LinearSolverParameters

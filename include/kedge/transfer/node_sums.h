@@ -19,6 +19,24 @@ namespace kedge
                 const ActiveNodes<dim>   &nodes,
                 NodeMatrix<dim>          &mass);
 
+  /** The same sum with other weights than masses, one per slot. */
+  template <int dim>
+  void
+  assemble_mass(const StepPoints<dim>     &points,
+                const LatticeWindow<dim>  &window,
+                const ActiveNodes<dim>    &nodes,
+                const std::vector<double> &weights,
+                NodeMatrix<dim>           &mass);
+
+  /** sum_p w grad N_A . grad N_B, weights one per slot; a NodeMatrix with one component. */
+  template <int dim>
+  void
+  assemble_laplacian(const StepPoints<dim>     &points,
+                     const LatticeWindow<dim>  &window,
+                     const ActiveNodes<dim>    &nodes,
+                     const std::vector<double> &weights,
+                     NodeMatrix<dim>           &laplacian);
+
   /**
    * (3.161): M~ = (1 - epsilon) M + epsilon diag(lumped), in place. The
    * lumped mass (3.162) is the row sum of M.

@@ -1,0 +1,59 @@
+#ifndef kedge_porous_pressure_blocks_h
+#define kedge_porous_pressure_blocks_h
+
+#include <kedge/solvers/mixed_blocks.h>
+#include <kedge/transfer/equation_system.h>
+
+namespace kedge
+{
+  /**
+   * What a block preconditioner needs to know of the u-p tangent. In place of
+   * the part of the Schur complement that comes from the skeleton stand
+   *   by stiffness, c/alpha sum_p V N_A N_B / M, the drained P-wave modulus M
+   *     (the "fixed stress" of splitting schemes),
+   *   by inertia, c sum_p V grad N_A . grad N_B / (rho d a/d u),
+   * with c the scheme's factor of the volume of fluid.
+   */
+  template <int dim>
+  class PressureBlocks
+  {
+  public:
+    /** Takes a new pattern (collective); @p status has dim + 1 entries per local node. */
+    void
+    reinit(const BackgroundGrid<dim>      &grid,
+           const ActiveNodes<dim>         &nodes,
+           const NodeTies<dim>            &ties,
+           const std::vector<NodalStatus> &status,
+           const EquationSystem<dim>      &equations,
+           const int                       radius);
+
+    /**
+     * Sums over the points (collective).
+     *
+     * @param modulus_of_body M of each body [Pa]
+     * @param stiffness_factor c/alpha [-]
+     * @param inertia_factor c du/da, 0 without inertia [s^2]
+     */
+    void
+    assemble(const StepPoints<dim>     &points,
+             const LatticeWindow<dim>  &window,
+             const ActiveNodes<dim>    &nodes,
+             const std::vector<double> &modulus_of_body,
+             const double               stiffness_factor,
+             const double               inertia_factor);
+
+    const MixedBlocks &
+    blocks() const
+    {
+      return blocks_;
+    }
+
+  private:
+    EquationSystem<dim> pressures;
+    NodeMatrix<dim>     matrix;
+    std::vector<double> weights;
+    MixedBlocks         blocks_;
+  };
+} // namespace kedge
+
+#endif

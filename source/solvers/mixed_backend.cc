@@ -1,0 +1,119 @@
+#include "backend.h"
+#include "gmres.h"
+#include "mixed_preconditioner.h"
+
+#include <algorithm>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Iterations per digit above this multiple of those with fresh blocks ask for new ones. */
+    constexpr double worn = 1.5;
+
+    /** GMRES with a block preconditioner, kept within a step as long as it serves. */
+    class MixedBackend : public LinearSolver::Backend
+    {
+    public:
+      explicit MixedBackend(const MixedBlocks &blocks)
+        : blocks(blocks)
+      {}
+
+      LinearStatus
+      factorise(const SparseSystem &system, const bool new_pattern, const double) override
+      {
+        communicator = system.communicator;
+        if (new_pattern)
+          {
+            matrix.reinit(system);
+            preconditioner.analyse(system, blocks);
+            is_worn = true;
+          }
+        matrix.set_values(system);
+        is_fresh = false;
+        return is_worn ? set_up() : LinearStatus();
+      }
+
+      LinearStatus
+      solve(const std::vector<double> &b,
+            std::vector<double>       &x,
+            const double               tolerance,
+            const unsigned int         max_iterations) override
+      {
+        const LinearStatus status = iterate(b, x, tolerance, max_iterations);
+        if (status.success || is_fresh)
+          return status;
+        const LinearStatus renewed = set_up();
+        return renewed.success ? iterate(b, x, tolerance, max_iterations) : renewed;
+      }
+
+      void
+      forget() override
+      {
+        is_worn = true;
+      }
+
+    private:
+      LinearStatus
+      set_up()
+      {
+        try
+          {
+            preconditioner.factorise(matrix, blocks);
+          }
+        catch (const std::exception &exception)
+          {
+            return LinearStatus::failure(std::string("preconditioner: ") + exception.what());
+          }
+        is_worn            = false;
+        is_fresh           = true;
+        iterations_of_best = 0.;
+        return {};
+      }
+
+      LinearStatus
+      iterate(const std::vector<double> &b,
+              std::vector<double>       &x,
+              const double               tolerance,
+              const unsigned int         max_iterations)
+      {
+        const std::vector<double> &scale = matrix.scaling();
+        std::vector<double>        scaled(b.size());
+        for (std::size_t i = 0; i < b.size(); ++i)
+          scaled[i] = scale[i] * b[i];
+        const auto multiply = [&](const double *from, double *to) {
+          matrix.multiply(from, to);
+        };
+        const auto precondition = [&](const double *from, double *to) {
+          preconditioner.multiply(matrix, from, to);
+        };
+        const GmresResult result =
+          solve_gmres(multiply, precondition, scaled, x, tolerance, max_iterations, communicator);
+        for (std::size_t i = 0; i < x.size(); ++i)
+          x[i] *= scale[i];
+        const double per_digit = (result.iterations + 1.) / std::max(1., -std::log10(tolerance));
+        if (is_fresh)
+          iterations_of_best = std::max(iterations_of_best, per_digit);
+        is_worn = !result.success || per_digit > worn * iterations_of_best;
+        LinearStatus status;
+        if (!result.success)
+          status = LinearStatus::failure("the iterative solver did not reach its tolerance");
+        status.iterations = result.iterations;
+        return status;
+      }
+
+      const MixedBlocks  &blocks;
+      MPI_Comm            communicator = MPI_COMM_SELF;
+      DistributedMatrix   matrix;
+      MixedPreconditioner preconditioner;
+      bool                is_worn = true, is_fresh = false;
+      double              iterations_of_best = 0.;
+    };
+  } // namespace
+
+  std::unique_ptr<LinearSolver::Backend>
+  make_mixed_backend(const MixedBlocks &blocks)
+  {
+    return std::make_unique<MixedBackend>(blocks);
+  }
+} // namespace kedge

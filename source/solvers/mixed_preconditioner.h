@@ -1,0 +1,60 @@
+#ifndef kedge_solvers_mixed_preconditioner_h
+#define kedge_solvers_mixed_preconditioner_h
+
+#include "multigrid.h"
+
+#include <kedge/solvers/mixed_blocks.h>
+
+namespace kedge
+{
+  /**
+   * The block triangular preconditioner of a scaled system in displacements
+   * and pressures,
+   *   p = S^-1 r_p,  u = A^-1 (r_u - G p),
+   * by one V-cycle of multigrid for each inverse. A's coarse levels keep the
+   * rigid motions. S^-1 = (C + X_s)^-1 + (C + X_i)^-1 with X_s, X_i in place of
+   * the Schur complement of stiffness and of inertia: of the two the smaller
+   * counts (Cahouet and Chabert 1988). It is never off by more than a factor
+   * of two for what C, with permeability, compressibility and stabilisation,
+   * decides.
+   */
+  class MixedPreconditioner
+  {
+  public:
+    /** Finds out which equations are which (collective). */
+    void
+    analyse(const SparseSystem &system, const MixedBlocks &blocks);
+
+    /** Sets up the multigrids of new values (collective); may throw. */
+    void
+    factorise(const DistributedMatrix &matrix, const MixedBlocks &blocks);
+
+    /** y = P^-1 x; @p matrix gives G (collective). */
+    void
+    multiply(const DistributedMatrix &matrix, const double *x, double *y);
+
+  private:
+    std::unique_ptr<Epetra_CrsMatrix>
+    displacement_matrix(const DistributedMatrix &matrix) const;
+    std::unique_ptr<Epetra_CrsMatrix>
+    pressure_matrix(const DistributedMatrix &matrix, const SparseSystem &added) const;
+    std::vector<double>
+    rigid_motions(const DistributedMatrix &matrix, const MixedBlocks &blocks) const;
+
+    int dim = 2;
+
+    /**
+     * Place of each global equation among the pressures, or -1 - its place
+     * among the displacements, of which each node has dim, unknown or not.
+     */
+    std::vector<int> place;
+    int              n_pressures = 0, first_pressure = 0, n_global_pressures = 0;
+    int              n_displacements = 0, first_displacement = 0, n_global_displacements = 0;
+
+    Multigrid           displacements, pressures, inertial_pressures;
+    bool                with_inertia = false;
+    std::vector<double> u, p, more, residual_u, residual_p, padded, product;
+  };
+} // namespace kedge
+
+#endif
