@@ -147,7 +147,6 @@ namespace kedge
   }
 
 
-
   template <int dim>
   void
   PorousProblem<dim>::set_prescribed()
