@@ -142,7 +142,6 @@ namespace kedge
   }
 
 
-
   template <int dim>
   void
   PorousProblem<dim>::set_prescribed()

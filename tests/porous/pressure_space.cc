@@ -252,13 +252,15 @@ namespace
     const auto  &rows          = system.equations.system();
     const double h             = 1e-5;
     double       largest[2][2] = {}, error[2][2] = {};
-    for (unsigned int k = 0; k < n; k += dim == 2 ? 1 : 11)
+    for (unsigned int k = 0; k < n; ++k)
       {
+        const bool q = system.equations.nodal_index(k) % (dim + 1) == dim;
+        if (dim == 3 && !q && k % 11 != 0) // some columns of many
+          continue;
         auto plus = x, minus = x;
         plus[k] += h;
         minus[k] -= h;
         const auto r_plus = system.residual(plus), r_minus = system.residual(minus);
-        const bool q = system.equations.nodal_index(k) % (dim + 1) == dim;
         for (unsigned int e = 0; e < n; ++e)
           {
             const bool p     = system.equations.nodal_index(e) % (dim + 1) == dim;
