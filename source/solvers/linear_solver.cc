@@ -51,8 +51,8 @@ namespace kedge
     }
 
     /**
-     * With blocks a correction takes about 12 iterations, each half as dear again,
-     * and multigrid is set up once in a step: measured on a strip of saturated soil.
+     * With blocks a correction takes about 12 iterations and multigrid is set up
+     * once in a step: fitted to single runs of a 2D strip of saturated soil.
      */
     constexpr double mixed_factor = 0.3;
 
