@@ -1,17 +1,12 @@
 #include <kedge/porous/porous_problem.h>
 #include <kedge/transfer/node_sums.h>
 
-#include <iomanip>
-
 namespace kedge
 {
   namespace
   {
     /** Raises the scaled diagonal of a singular tangent; Newton's residual stays exact. */
     constexpr double singular_shift = 1e-10;
-
-    /** A tangent worse than this may be why Newton's method fails. */
-    constexpr double suspicious_condition = 1e12;
   } // namespace
 
 
@@ -50,12 +45,12 @@ namespace kedge
                              const int  stiffness_radius,
                              const bool new_pattern)
   {
-    this->grid         = &grid;
-    this->nodes        = &nodes;
-    this->conditions   = &conditions;
-    this->ties         = &ties;
-    this->points       = &points;
-    cell_size          = grid.lattice().smallest_cell_size();
+    this->grid       = &grid;
+    this->nodes      = &nodes;
+    this->conditions = &conditions;
+    this->ties       = &ties;
+    this->points     = &points;
+    cell_size        = grid.lattice().smallest_cell_size();
     if (!new_pattern)
       return;
     constexpr int n = dim + 1;
@@ -94,8 +89,8 @@ namespace kedge
     this->t_n   = t_n;
     this->dt    = dt;
     warning_.clear();
-    condition        = 0.;
-    weakest_equation = -1;
+    condition          = 0.;
+    weakest_equation   = -1;
     linear_tolerance   = 0.;
     blocks_have_values = false;
     unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
@@ -451,69 +446,6 @@ namespace kedge
       for (int d = 0; d < dim; ++d)
         forces[std::size_t(i) * dim + d] -= residual[std::size_t(i) * (dim + 1) + d];
     return forces;
-  }
-
-
-
-  template <int dim>
-  std::string
-  PorousProblem<dim>::diagnosis() const
-  {
-    if (!warning_.empty() || condition < suspicious_condition)
-      return warning_;
-    std::ostringstream text;
-    text << std::scientific << std::setprecision(0) << "the tangent is nearly singular (condition "
-         << condition << ")" << describe_equation(weakest_equation);
-    return text.str();
-  }
-
-
-
-  template <int dim>
-  std::string
-  PorousProblem<dim>::describe_point(const unsigned int slot) const
-  {
-    std::ostringstream text;
-    unsigned int       body = 0;
-    for (const auto &batch : points->batches)
-      if (slot >= batch.begin && slot < batch.end)
-        body = batch.body;
-    text << "material point " << points->id[slot] << " of body '" << body_names[body] << "' at ("
-         << points->location[slot] << ") has det F <= 0 or no finite stress";
-    return text.str();
-  }
-
-
-
-  template <int dim>
-  std::string
-  PorousProblem<dim>::describe_equation(const std::int64_t equation) const
-  {
-    if (equation < 0)
-      return "";
-    const SparseSystem &system         = equations.system();
-    double              place[dim + 2] = {};
-    if (equation >= system.first_row && equation < system.first_row + system.n_rows())
-      {
-        const unsigned int k =
-          equations.nodal_index(static_cast<unsigned int>(equation - system.first_row));
-        const auto x = grid->lattice().node_position(
-          grid->window().node_index(nodes->window_node(k / (dim + 1))));
-        for (int d = 0; d < dim; ++d)
-          place[d] = x[d];
-        place[dim] = k % (dim + 1);
-      }
-    MPI_Allreduce(MPI_IN_PLACE, place, dim + 2, MPI_DOUBLE, MPI_SUM, nodes->communicator());
-    const int          component = static_cast<int>(place[dim]);
-    std::ostringstream text;
-    text << ": nothing holds the "
-         << (component == dim ? std::string("pore pressure")
-                              : std::string("displacement component ") + "xyz"[component])
-         << " of the node at (";
-    for (int d = 0; d < dim; ++d)
-      text << (d > 0 ? ", " : "") << place[d];
-    text << "), in the cells around it the body is too thin or too loosely held";
-    return text.str();
   }
 
   template class PorousProblem<2>;

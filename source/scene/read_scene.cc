@@ -444,6 +444,10 @@ namespace kedge
     scene.transfer        = read_mapping(reader);
     scene.stabilisation   = read_stabilisation(reader);
     scene.pore_fluid      = read_pore_fluid<dim>(reader, scene);
+    if (scene.linear_solver.kind == LinearSolverKind::krylov_blocks && !scene.pore_fluid)
+      throw SectionReader(reader, {"Linear solver"})
+        .error("Method",
+               "The blocks are displacements and pore pressures; there is no Pore fluid.");
     set_elements(reader, scene);
     scene.output            = read_output(reader, scene.time);
     scene.probes            = read_probes<dim>(reader);

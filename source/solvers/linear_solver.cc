@@ -112,7 +112,8 @@ namespace kedge
 
     const double exact = std::min(banded, umfpack);
     substitute         = banded < umfpack ? LinearSolverKind::banded : LinearSolverKind::direct;
-    if (exact <= usual_iterations * iteration)
+    // the blocks have been measured in two dimensions
+    if (exact <= usual_iterations * iteration || (traits.mixed && traits.space_dimension == 3))
       return substitute;
     if (exact > longest_substitute)
       substitute = LinearSolverKind::automatic;

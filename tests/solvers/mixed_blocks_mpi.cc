@@ -14,12 +14,6 @@ namespace
 {
   constexpr int width = 12, height = 10, dim = 2;
 
-  int
-  node(const int i, const int j)
-  {
-    return i + width * j;
-  }
-
   /** Entry of node a, component c, and node b, component d; pressure is component 2. */
   double
   entry(const int a, const int c, const int b, const int d, const double conductivity)
@@ -97,7 +91,7 @@ namespace
 } // namespace
 
 // Direct solution of the same system; conditions are below 1e4, residuals 1e-11.
-// Iterations: at most 40 where unpreconditioned GMRES needs more than 100.
+// Iterations: a bound of 40 for 360 unknowns, a ninth of what GMRES needs at worst.
 TEST(SolversMixedBlocksMpi, SolutionIsTheDirectOneFromDrainedToUndrained)
 {
   for (const double conductivity : {1e4, 1., 1e-4, 0.})
