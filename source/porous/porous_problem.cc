@@ -54,6 +54,8 @@ namespace kedge
     acceleration.resize(scheme.dynamic ? std::size_t(nodes->n_local()) * dim : 0);
     guess_pressure();
     set_prescribed();
+    if (ghosts != nullptr && ghosts->has_storage)
+      project_pressure();
   }
 
 
@@ -174,6 +176,8 @@ namespace kedge
     const PointStatus answer =
       porous_force
         .add_residual(*points, pores, grid->window(), *nodes, trial(), residual, outflow, size);
+    if (ghosts != nullptr)
+      add_ghosts(size);
     ties->restrict_sums(residual, dim + 1);
     nodes->add_to_owners(residual, dim + 1);
     double external = 0.;
@@ -207,6 +211,8 @@ namespace kedge
     const Stopwatch stopwatch(timings_.tangent);
     tangent.set_zero();
     porous_force.add_tangent(*points, pores, grid->window(), *nodes, trial(), tangent);
+    if (ghosts != nullptr)
+      add_ghosts_to_tangent();
     equations.fill(*nodes, tangent);
     if (linear_solver.choose(equations.system()) == LinearSolverKind::krylov_blocks)
       assemble_blocks();

@@ -34,17 +34,17 @@ namespace kedge
                        const NodeTies<dim>       &ties,
                        const StepPoints<dim>     &points,
                        const NodeMatrix<dim>     &mass,
-                       const NodeMatrix<dim>     *ghost_stiffness,
+                       const GhostMatrices<dim>  *ghosts,
                        const int                  stiffness_radius,
                        const bool                 new_pattern)
   {
-    this->grid            = &grid;
-    this->nodes           = &nodes;
-    this->conditions      = &conditions;
-    this->ties            = &ties;
-    this->points          = &points;
-    this->mass            = &mass;
-    this->ghost_stiffness = ghost_stiffness;
+    this->grid       = &grid;
+    this->nodes      = &nodes;
+    this->conditions = &conditions;
+    this->ties       = &ties;
+    this->points     = &points;
+    this->mass       = &mass;
+    this->ghosts     = ghosts;
     if (!new_pattern)
       return;
     tangent.reinit(nodes.n_local(), n_components, stiffness_radius);

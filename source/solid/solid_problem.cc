@@ -98,7 +98,7 @@ namespace kedge
     const std::vector<double> &u      = state->displacement;
     std::fill(internal.begin(), internal.end(), 0.);
     const PointStatus answer = internal_force.add_force(*points, window, *nodes, u, internal);
-    if (ghost_stiffness != nullptr)
+    if (ghosts != nullptr)
       add_ghost_force();
     ties->restrict_sums(internal);
     nodes->add_to_owners(internal, dim);
@@ -143,7 +143,7 @@ namespace kedge
   SolidProblem<dim>::add_ghost_force()
   {
     std::vector<double> force(internal.size());
-    multiply(*ghost_stiffness, grid->window(), *nodes, dim, state->displacement, force);
+    multiply(ghosts->stiffness, grid->window(), *nodes, dim, state->displacement, force);
     for (std::size_t i = 0; i < force.size(); ++i)
       internal[i] += scheme.alpha_f * force[i];
   }
@@ -157,8 +157,8 @@ namespace kedge
     const Stopwatch stopwatch(timings_.tangent);
     tangent.set_zero();
     internal_force.add_stiffness(*points, grid->window(), *nodes, state->displacement, tangent);
-    if (ghost_stiffness != nullptr)
-      this->add_to_diagonal_blocks(scheme.alpha_f, *ghost_stiffness, 0, dim);
+    if (ghosts != nullptr)
+      this->add_to_diagonal_blocks(scheme.alpha_f, ghosts->stiffness, 0, dim);
     if (scheme.dynamic)
       this->add_to_diagonal_blocks(scheme.inertia_coefficient(dt), *mass, 0, dim);
     equations.fill(*nodes, tangent);

@@ -25,6 +25,9 @@ namespace kedge
    * with all inertia and body force taken point by point (PorousForce), so that
    * M follows the fluid that flows in and out.
    *
+   * With ghost stabilisation (4.174), (4.178) also, on the nodes of partly filled cells,
+   *   alpha_f K_G u + M_G a   and   dt K_G^(f)/rho_0 p + M_G^(f)/rho_0 (p_{n+1} - p_n).
+   *
    * Newton's norms weigh volumes of fluid by M/h (M the skeleton's P-wave
    * modulus, h a cell) and pressures by h/M: a strain counts as much in one
    * equation as in the other, so that neither hides the other.
@@ -59,6 +62,10 @@ namespace kedge
     void
     evaluate_updates(std::vector<PoreUpdate<dim>> &updates) const;
 
+    /** Work done against the ghost terms of the pressure in this step [J] (collective). */
+    double
+    work_against_ghosts() const;
+
     /** Through prescribed pressures in this step, after convergence (collective). */
     FluidInflow
     inflow() const;
@@ -91,6 +98,7 @@ namespace kedge
     using Balance<dim>::correction;
     using Balance<dim>::dt;
     using Balance<dim>::equations;
+    using Balance<dim>::ghosts;
     using Balance<dim>::grid;
     using Balance<dim>::linear_solver;
     using Balance<dim>::nodes;
@@ -104,6 +112,14 @@ namespace kedge
     using Balance<dim>::timings_;
     using Balance<dim>::weights;
 
+    void
+    add_ghosts(PorousSize &size);
+    void
+    add_ghosts_to_tangent();
+    void
+    project_pressure();
+    std::vector<double>
+    ghost_flow() const;
     void
     guess_pressure();
     void
@@ -132,7 +148,8 @@ namespace kedge
     PorePoints<dim>     pores;
     PressureBlocks<dim> blocks;
     bool                blocks_have_pattern = false, blocks_have_values = false;
-    std::vector<double> unknowns; ///< dim + 1 per node
+    std::vector<double> unknowns;   ///< dim + 1 per node
+    std::vector<double> pressure_n; ///< at the nodes, of the points at n; for the ghosts' storage
     std::vector<double> acceleration;
     std::vector<double> outflow; ///< through surfaces with a pressure [m^3]
   };

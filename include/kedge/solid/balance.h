@@ -6,6 +6,7 @@
 #include <kedge/solid/internal_force.h>
 #include <kedge/solvers/newton.h>
 #include <kedge/transfer/equation_system.h>
+#include <kedge/transfer/ghost_penalty.h>
 
 namespace kedge
 {
@@ -43,7 +44,8 @@ namespace kedge
      * Announces points, nodes and conditions of a step. The stiffness couples
      * nodes up to @p stiffness_radius apart, no less than the mass does.
      *
-     * @param ghost_stiffness K_G, acts alike on all components [N/m]; nullptr for none
+     * @param mass of velocities and accelerations, that of ghosts included
+     * @param ghosts the ghost terms; nullptr for none
      */
     void
     reinit(const BackgroundGrid<dim> &grid,
@@ -52,7 +54,7 @@ namespace kedge
            const NodeTies<dim>       &ties,
            const StepPoints<dim>     &points,
            const NodeMatrix<dim>     &mass,
-           const NodeMatrix<dim>     *ghost_stiffness,
+           const GhostMatrices<dim>  *ghosts,
            const int                  stiffness_radius,
            const bool                 new_pattern);
 
@@ -153,16 +155,16 @@ namespace kedge
     LinearSolver                linear_solver;
     std::array<double, dim + 1> weights; ///< of the components' equations in Newton's norm
 
-    const BackgroundGrid<dim> *grid            = nullptr;
-    const ActiveNodes<dim>    *nodes           = nullptr;
-    const NodeConditions<dim> *conditions      = nullptr;
-    const NodeTies<dim>       *ties            = nullptr;
-    const StepPoints<dim>     *points          = nullptr;
-    const NodeMatrix<dim>     *mass            = nullptr;
-    const NodeMatrix<dim>     *ghost_stiffness = nullptr;
-    NodalState                *state           = nullptr;
-    double                     t_n             = 0.;
-    double                     dt              = 0.;
+    const BackgroundGrid<dim> *grid       = nullptr;
+    const ActiveNodes<dim>    *nodes      = nullptr;
+    const NodeConditions<dim> *conditions = nullptr;
+    const NodeTies<dim>       *ties       = nullptr;
+    const StepPoints<dim>     *points     = nullptr;
+    const NodeMatrix<dim>     *mass       = nullptr;
+    const GhostMatrices<dim>  *ghosts     = nullptr;
+    NodalState                *state      = nullptr;
+    double                     t_n        = 0.;
+    double                     dt         = 0.;
 
     NodeMatrix<dim>          tangent;
     EquationSystem<dim>      equations;

@@ -41,7 +41,7 @@ namespace kedge
     using Balance<dim>::correction;
     using Balance<dim>::dt;
     using Balance<dim>::equations;
-    using Balance<dim>::ghost_stiffness;
+    using Balance<dim>::ghosts;
     using Balance<dim>::grid;
     using Balance<dim>::mass;
     using Balance<dim>::nodes;
