@@ -25,13 +25,14 @@ def edge(kind, cut):
 
 
 def cuts():
-    """Nearly empty cells, at a drained surface and at a closed one; the load is so small that
-    the cut stays."""
+    """Nearly empty cells, at a drained surface and at a closed one. In quasi-static runs the load
+    is so small that the cut stays."""
     for kind in BASES:
         for cut in CUTS:
             for scheme in ("quasi-static", "newmark", "midpoint"):
+                load = f"{cut}/100" if scheme == "quasi-static" else "1e-3"
                 yield saturated("saturated_block", f"cut {cut}, {scheme}",
-                                {**constants(shift=edge(kind, cut), w=f"{cut}/100*M"),
+                                {**constants(shift=edge(kind, cut), w=f"{load}*M"),
                                  **SCHEMES[scheme]},
                                 kind, short=cut == "1e-6" and scheme != "midpoint",
                                 group="sat. cut")
