@@ -105,16 +105,20 @@ def books(folder, case):
             largest_change(rows, lambda row: row["solid_mass"], rows[0]["solid_mass"]),
             largest_change(rows, lambda row: row["fluid_mass"] - row["fluid_inflow"],
                            rows[0]["fluid_mass"]))
+        result["porosity"] = min(row["min_porosity"] for row in rows)
     return result
 
 
-def is_sound(case, ended, found):
-    """Whether a case ended as it should, with books that close as far as the scheme promises."""
+def is_sound(case, ended, found, log):
+    """Whether a case ended as it should, with books that close as far as the scheme promises, and
+    said so if it lost its pores."""
     if ended not in ("finished", "stopped", "refused"):
         return False
     if not found:
         return ended != "finished"
     if not all(math.isfinite(value) for value in found.values()):
+        return False
+    if found.get("porosity", 1.) < 0 and "the porosity of a material point" not in log:
         return False
     if case.conserving:
         return found["energy"] <= LARGEST_DRIFT
@@ -151,7 +155,8 @@ def run(arg, case, number):
     found = books(folder, case) if code in (0, 2) else {}
     ended = how_it_ended(code, summary, bool(arg.set))
     steps = max(summary.get("steps", 0), 1)
-    sound = is_sound(case, ended, found)
+    log = folder / "log.txt"
+    sound = is_sound(case, ended, found, log.read_text() if log.exists() else "")
 
     def figure(name):
         return f"{found.get(name, math.nan):.1e}"

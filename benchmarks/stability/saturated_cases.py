@@ -89,7 +89,8 @@ def free():
 
 
 def squeezed():
-    """Half of the pores lost, and more than all: the original law must be stopped."""
+    """Half of the pores lost, and more than all: with the original law that must be said, or the
+    run stopped; the improved law keeps them."""
     for kind in BASES:
         for law in ("hencky", "improved_hencky"):
             for stretch in (0.66, 0.45, 0.3):
@@ -99,6 +100,9 @@ def squeezed():
                                      "Materials/skeleton/Model": law},
                                     kind, short=kind == "gimp" and stretch == 0.3 and shift == 0.5,
                                     group="sat. squeezed")
+        yield saturated("saturated_squeezed", "hencky, load for 0.3, warned",
+                        {**constants(l=0.3), "Pore fluid/Lost porosity": "warn"},
+                        kind, short=kind == "linear", group="sat. squeezed")
 
 
 def saturated_cases():
