@@ -91,7 +91,17 @@ namespace kedge
                {"Ghost stiffness factor",
                 "1e-6",
                 allow.number(NumberRange::not_negative()),
-                "ghost: of the stiffness penalty, over Young's modulus [-]."}}};
+                "ghost: of the stiffness penalty, over Young's modulus [-]."},
+               {"Ghost conductivity factor",
+                "",
+                allow.number(NumberRange::not_negative()).or_empty(),
+                "ghost, in saturated bodies: of the penalty of pressures, over the conductivity "
+                "[-]; empty: 1e-3."},
+               {"Ghost storage factor",
+                "",
+                allow.number(NumberRange::not_negative()).or_empty(),
+                "ghost, in saturated bodies: of the penalty of changes of pressure, over the "
+                "fluid's compressibility 1/K_f [-]; empty: 1e-3."}}};
     }
   } // namespace
 

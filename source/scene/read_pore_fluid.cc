@@ -15,6 +15,10 @@ namespace kedge
         if (!condition.pore_pressure.empty())
           throw SectionReader(reader, {"Node conditions", condition.name})
             .error("Pore pressure", "The bodies are dry: give Pore fluid/Density.");
+      const SectionReader stabilisation(reader, {"Stabilisation"});
+      for (const char *factor : {"Ghost conductivity factor", "Ghost storage factor"})
+        if (!stabilisation.is_empty(factor))
+          throw stabilisation.error(factor, "The bodies are dry: give Pore fluid/Density.");
       for (const std::string &name : reader.names("Surface pressures"))
         throw SectionReader(reader, {"Surface pressures", name})
           .error("Pressure", "The bodies are dry: give Pore fluid/Density.");
@@ -47,9 +51,6 @@ namespace kedge
         if (material.volume_change != VolumeChange::pointwise)
           throw SectionReader(reader, {"Materials", material.name})
             .error("Volume change", "In saturated bodies (Pore fluid) it must be pointwise.");
-      if (scene.stabilisation.method == StabilisationKind::ghost)
-        throw SectionReader(reader, {"Stabilisation"})
-          .error("Method", "Saturated bodies (Pore fluid) go with aggregation and none.");
       if (scene.transfer.lumping > 0.)
         throw SectionReader(reader, {"Mapping"})
           .error("Lumping", "In saturated bodies (Pore fluid) the mass matrix must be consistent.");

@@ -315,6 +315,10 @@ namespace kedge
       stabilisation.smallest_filling       = section.number("Smallest filling");
       stabilisation.ghost_mass_factor      = section.number("Ghost mass factor");
       stabilisation.ghost_stiffness_factor = section.number("Ghost stiffness factor");
+      if (!section.is_empty("Ghost conductivity factor"))
+        stabilisation.ghost_conductivity_factor = section.number("Ghost conductivity factor");
+      if (!section.is_empty("Ghost storage factor"))
+        stabilisation.ghost_storage_factor = section.number("Ghost storage factor");
       return stabilisation;
     }
 

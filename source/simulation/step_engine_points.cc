@@ -239,7 +239,7 @@ namespace kedge
     if (porous != nullptr)
       add_pore_work();
     if (has_ghosts())
-      ghost_work = work_against_ghosts();
+      ghost_work = work_against_ghosts() + (porous != nullptr ? porous->work_against_ghosts() : 0.);
     if (std::any_of(scene.node_conditions.begin(),
                     scene.node_conditions.end(),
                     [](const auto &condition) {
@@ -278,7 +278,7 @@ namespace kedge
     const std::vector<double> &u = nodal.displacement;
     std::vector<double>        product(u.size()), acceleration(u.size()), change(u.size());
     double                     work = 0.;
-    multiply(ghost_stiffness, background.window(), nodes, dim, u, product);
+    multiply(ghost_terms.stiffness, background.window(), nodes, dim, u, product);
     for (std::size_t i = 0; i < u.size(); ++i)
       work += scheme.alpha_f * u[i] * product[i];
     if (scheme.dynamic)
@@ -289,10 +289,10 @@ namespace kedge
             acceleration[i] = scheme.equilibrium_acceleration(u[i], v_n, a_n, step_dt);
             change[i]       = scheme.end_velocity(u[i], v_n, a_n, step_dt) - v_n;
           }
-        multiply(ghost_mass, background.window(), nodes, dim, acceleration, product);
+        multiply(ghost_terms.mass, background.window(), nodes, dim, acceleration, product);
         for (std::size_t i = 0; i < u.size(); ++i)
           work += u[i] * product[i];
-        multiply(ghost_mass, background.window(), nodes, dim, change, product);
+        multiply(ghost_terms.mass, background.window(), nodes, dim, change, product);
         for (std::size_t i = 0; i < u.size() && ghosts_in_mapping; ++i)
           work -= nodal.velocity_n[i] * product[i];
       }

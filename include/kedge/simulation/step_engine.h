@@ -294,7 +294,7 @@ namespace kedge
     SurfacePressures<dim> surfaces;
     NodeMatrix<dim>       mass;
     GhostPenalty<dim>     ghosts;
-    NodeMatrix<dim>       ghost_mass, ghost_stiffness;
+    GhostMatrices<dim>    ghost_terms;
     NodeMatrix<dim>       ghosted_mass; ///< mass and ghost mass
     bool                  ghosts_in_mapping = false;
     VelocityMapping<dim>  mapping;
