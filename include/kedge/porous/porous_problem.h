@@ -3,6 +3,8 @@
 
 #include <kedge/porous/porous_force.h>
 #include <kedge/porous/pressure_blocks.h>
+#include <kedge/porous/pressure_mapping.h>
+#include <kedge/porous/surface_fluxes.h>
 #include <kedge/solid/balance.h>
 #include <kedge/solid/external_loads.h>
 #include <kedge/time_integration/scheme.h>
@@ -37,7 +39,8 @@ namespace kedge
     PorousProblem(const PorousForce<dim>         &force,
                   const ExternalLoads<dim>       &loads,
                   const SurfacePressures<dim>    &surfaces,
-                  const double                    surface_penalty,
+                  const SurfaceFluxes<dim>       &fluxes,
+                  const PorousParameters         &pore_fluid,
                   const Scheme                   &scheme,
                   const LinearSolverParameters   &parameters,
                   const std::vector<double>      &p_wave_modulus_of_body,
@@ -133,7 +136,7 @@ namespace kedge
 
   private:
     void
-    guess_pressure();
+    set_supply();
     void
     set_prescribed();
     void
@@ -160,6 +163,7 @@ namespace kedge
     const PorousForce<dim>         porous_force;
     const ExternalLoads<dim>      &loads;
     const SurfacePressures<dim>   &surfaces;
+    const SurfaceFluxes<dim>      &fluxes;
     const double                   surface_penalty;
     const Scheme                   scheme;
     const std::vector<double>      modulus_of_body;
@@ -174,6 +178,7 @@ namespace kedge
     const StepPoints<dim>     *points     = nullptr;
     NodalState                *state      = nullptr;
     PorePoints<dim>            pores;
+    PressureMapping<dim>       pressure_mapping;
     double                     t_n       = 0.;
     double                     dt        = 0.;
     double                     cell_size = 0.;
@@ -186,6 +191,7 @@ namespace kedge
     std::vector<NodalStatus> status;
     std::vector<double>      unknowns, residual, correction; ///< dim + 1 per node
     std::vector<double>      acceleration;
+    std::vector<double>      supply;  ///< by fluxes in this step, as residual; empty: none [m^3]
     std::vector<double>      outflow; ///< through surfaces with a pressure [m^3]
     SolidTimings             timings_;
     std::string              warning_; ///< of a singular tangent in this step
