@@ -103,6 +103,17 @@ kedge_add_scene_test(scene.footing_flexible prm/footing_flexible.prm
   SET "Output/Points interval = 0")
 kedge_add_scene_test(scene.footing_harmonic prm/footing_harmonic.prm
   SET "Constants/n = 15" "Constants/points = 2" "Output/Points interval = 0")
+# exact at the points of this grid next to the probes; what is left is the error of its cells
+kedge_add_scene_test(scene.footing_harmonic.no_inertia prm/footing_harmonic.prm
+  SET "Constants/n = 15" "Constants/points = 2" "Output/Points interval = 0"
+    "Constants/w = 6e3" "Time/Scheme = quasi-static" "Constants/surface = 0"
+    "Constants/B = 0.1484" "Constants/C = 0.1173" "Constants/tolerance = 0.004"
+    "Constants/below = 0.004")
+kedge_add_scene_test(scene.footing_harmonic.waves prm/footing_harmonic.prm
+  SET "Constants/n = 30" "Constants/points = 2" "Output/Points interval = 0"
+    "Constants/w = 6e3" "Time/Scheme = trapezoidal" "Pore fluid/Bulk modulus = 2.2e11"
+    "Constants/surface = -0.276" "Constants/B = 0.159" "Constants/tolerance = 0.03"
+    "Constants/below = 0.005")
 set(clay "Materials/skeleton/Preconsolidation pressure = 4e5"
   "Materials/skeleton/Critical state slope = 0.964" "Materials/skeleton/Surface alpha = 0.3"
   "Materials/skeleton/Surface gamma = 0.9")
