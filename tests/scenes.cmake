@@ -29,9 +29,12 @@ kedge_add_scene_test(scene.translating_body prm/translating_body.prm
 # no penalty on a rigid motion: the same checks to the same tolerances
 kedge_add_scene_test(scene.translating_body.ghost prm/translating_body.prm
   SET "Stabilisation/Method = ghost")
-# the penalties leave matrices with condition numbers up to 1e10: round-off of
-# 1e-16 in the ranks' different sums comes back as 1e-6
-kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm COMPARE_RANKS 1e-5)
+# the penalties leave matrices with condition numbers up to 1e10: the ranks' different
+# sums grow from 1e-16 to 1e-14 by t = 1.9 s. Later some steps are cut in halves or not
+# by how their iterations wander, and what round-off decides there cannot be compared.
+kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm)
+kedge_add_scene_test(scene.small_cuts.ranks prm/small_cuts.prm
+  SET "Constants/steps = 95" COMPARE_RANKS 1e-10)
 kedge_add_scene_test(scene.small_cuts.gimp prm/small_cuts.prm
   SET "Bodies/square/Basis = gimp" "Constants/shift = 3/8")
 kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import report
 from measure import demand, ratio, run_interleaved
-from programs import ROOT
+from programs import ROOT, Programs
 from results import Run
 
 HERE = Path(__file__).resolve().parent
@@ -81,7 +81,29 @@ def cost(arg):
     heads = {"kernel": "", "points": "points", "iterations": "iterations per step",
              **{phase: phase for phase in PHASES}, "kernels": "all but the linear solve",
              "whole": "whole run"}
-    return finish(arg, "cost", rows, heads)
+    return finish(arg, "cost", rows, heads, operations(arg, rows))
+
+
+def operations(arg, rows):
+    """Operations and bytes of residual and tangent, and their share of what one core can do."""
+    known = Programs(arg).operations()
+    flops, rate = known["peak_operations_per_second"], known["peak_bytes_per_second"]
+    table = []
+    for row in rows:
+        kernel = known["kernels"][row["kernel"]]
+        for phase in ("residual", "tangent"):
+            count, size = kernel[f"{phase}_operations"], kernel[f"{phase}_bytes"]
+            table.append({"kernel": f"{row['kernel']}, {phase}", "nodes": kernel["nodes"],
+                          "flops": count, "bytes": size, "time": row[phase],
+                          "share": 100 * count / (1e-6 * row[phase]) / flops,
+                          "traffic": 100 * size / (1e-6 * row[phase]) / rate})
+    report.write_csv(table, arg.output / "operations.csv")
+    return ("\n" + report.markdown(table, {
+        "kernel": "kernel", "nodes": "nodes", "flops": "operations per point",
+        "bytes": "bytes per point", "time": "us per point and iteration",
+        "share": "% of the peak's operations", "traffic": "% of the memory's rate"})
+            + f"\nPeak of one core, measured: {flops / 1e9:.0f} Gflop/s with {known['lanes']} lanes, "
+            f"{rate / 1e9:.0f} GB/s from memory.\n")
 
 
 def matrix_bytes(run, basis):
