@@ -15,7 +15,8 @@ namespace kedge
   PorousProblem<dim>::PorousProblem(const PorousForce<dim>         &force,
                                     const ExternalLoads<dim>       &loads,
                                     const SurfacePressures<dim>    &surfaces,
-                                    const double                    surface_penalty,
+                                    const SurfaceFluxes<dim>       &fluxes,
+                                    const PorousParameters         &pore_fluid,
                                     const Scheme                   &scheme,
                                     const LinearSolverParameters   &parameters,
                                     const std::vector<double>      &p_wave_modulus_of_body,
@@ -24,10 +25,12 @@ namespace kedge
     , porous_force(force)
     , loads(loads)
     , surfaces(surfaces)
-    , surface_penalty(surface_penalty)
+    , fluxes(fluxes)
+    , surface_penalty(pore_fluid.surface_penalty)
     , scheme(scheme)
     , modulus_of_body(p_wave_modulus_of_body)
     , modulus(*std::max_element(modulus_of_body.begin(), modulus_of_body.end()))
+    , pressure_mapping(pore_fluid.pressure_map)
   {}
 
 
@@ -52,7 +55,9 @@ namespace kedge
     residual.resize(unknowns.size());
     outflow.resize(surfaces.pressures(t_n).size());
     acceleration.resize(scheme.dynamic ? std::size_t(nodes->n_local()) * dim : 0);
-    guess_pressure();
+    pressure_mapping
+      .map(*points, grid->window(), *nodes, *ties, pores.pressure, tangent.radius(), unknowns);
+    set_supply();
     set_prescribed();
     if (ghosts != nullptr && ghosts->has_storage)
       project_pressure();
@@ -60,38 +65,19 @@ namespace kedge
 
 
 
-  /** The points' pressures, averaged over their volumes (4.181); only Newton starts from it. */
   template <int dim>
   void
-  PorousProblem<dim>::guess_pressure()
+  PorousProblem<dim>::set_supply()
   {
-    std::vector<double> at_points(2 * std::size_t(points->size()));
-    for (unsigned int slot = 0; slot < points->size(); ++slot)
-      {
-        const double volume                  = points->volume[slot] * points->determinant[slot];
-        at_points[2 * std::size_t(slot)]     = volume;
-        at_points[2 * std::size_t(slot) + 1] = volume * pores.pressure[slot];
-      }
-    std::vector<double> sums(2 * std::size_t(nodes->n_local()), 0.);
-    add_scalars_to_nodes(*points, grid->window(), *nodes, at_points, 2, sums);
-    bool is_coarse = false;
-    for (const auto &tie : ties->ties())
-      if (tie.interpolates)
-        {
-          is_coarse = true;
-          for (unsigned int k = 0; k < tie.roots.size(); ++k)
-            for (unsigned int c = 0; c < 2; ++c)
-              sums[2 * std::size_t(tie.roots[k]) + c] +=
-                tie.weights[k] * sums[2 * std::size_t(tie.node) + c];
-        }
-    nodes->add_to_owners(sums, 2);
-    nodes->update_ghosts(sums, 2);
-    for (unsigned int i = 0; i < nodes->n_local(); ++i)
-      unknowns[std::size_t(i) * (dim + 1) + dim] =
-        sums[2 * i] > 0. ? sums[2 * i + 1] / sums[2 * i] : 0.;
-    if (is_coarse)
-      ties->prolong(unknowns, dim + 1);
+    supply.assign(fluxes.empty() ? 0 : unknowns.size(), 0.);
+    if (fluxes.empty())
+      return;
+    const double t = t_n + porous_force.scheme().theta * dt;
+    fluxes.add_supply(*points, grid->window(), *nodes, t, dt, supply);
+    ties->restrict_sums(supply, dim + 1);
+    nodes->add_to_owners(supply, dim + 1);
   }
+
 
 
   template <int dim>
@@ -189,6 +175,13 @@ namespace kedge
           external += f * f;
         }
 
+    for (std::size_t k = dim; k < supply.size() && k < std::size_t(nodes->n_owned()) * (dim + 1);
+         k += dim + 1)
+      {
+        residual[k] -= supply[k];
+        external += std::pow(weights[dim] * supply[k], 2);
+      }
+
     double sums[5] = {0., size.momentum, size.fluid, external, answer.ok() ? 0. : 1.};
     for (unsigned int e = 0; e < equations.system().n_rows(); ++e)
       {
@@ -282,6 +275,9 @@ namespace kedge
           const std::size_t k = std::size_t(i) * (dim + 1) + dim;
           add(fluid.reference_density * residual[k], unknowns[k]);
         }
+    for (std::size_t k = dim; k < supply.size() && k < std::size_t(nodes->n_owned()) * (dim + 1);
+         k += dim + 1)
+      add(fluid.reference_density * supply[k], unknowns[k]);
     const auto pressures = surfaces.pressures(t_n + porous_force.scheme().theta * dt);
     for (unsigned int s = 0; s < outflow.size(); ++s)
       add(-fluid.reference_density * outflow[s], pressures[s]);
@@ -297,7 +293,8 @@ namespace kedge
   {
     unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
     residual.assign(unknowns.size(), 0.);
-    guess_pressure();
+    pressure_mapping
+      .map(*points, grid->window(), *nodes, *ties, pores.pressure, tangent.radius(), unknowns);
     outflow.assign(surfaces.pressures(t).size(), 0.);
     const std::vector<double> at_rest;
     PorousSize                size;

@@ -60,6 +60,11 @@ namespace kedge
           "0",
           allow.number(fraction),
           "Mass matrix from 0, consistent, to 1, lumped [-]."},
+         {"Pressure",
+          "consistent",
+          allow.one_of({"consistent", "lumped"}),
+          "Of saturated bodies: the volume matrix that takes pore pressures from points to nodes, "
+          "from where Newton's method starts; consistent is exact for linear pressures."},
          {"Audit",
           "false",
           allow.truth(),

@@ -110,6 +110,7 @@ namespace kedge
             scene.tractions,
             scene.constants)
     , surfaces(scene.surface_pressures, scene.constants)
+    , fluxes(scene.surface_fluxes, scene.constants)
     , balance(make_balance())
   {
     for (const auto &body : scene.bodies)
@@ -183,6 +184,7 @@ namespace kedge
       {
         porous->read_pores(cloud);
         surfaces.reinit(cloud, step_points);
+        fluxes.reinit(cloud, step_points);
       }
   }
 

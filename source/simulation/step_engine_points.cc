@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/simulation/step_engine.h>
+#include <kedge/solid/initial_stress.h>
 
 namespace kedge
 {
@@ -40,10 +41,12 @@ namespace kedge
         else
           points.insert(points.end(), of_body.begin(), of_body.end());
       }
+    set_initial_stress(scene.bodies, material_of_body, scene.constants, points);
     if (has_pores())
       saturate(points);
     loads.attach(points, body_names);
     surfaces.attach(points, body_names);
+    fluxes.attach(points, body_names);
 
     generated = std::vector<PointOrigin<dim>>(points.begin(), points.end());
     check_overlaps();
@@ -136,6 +139,17 @@ namespace kedge
 
   template <int dim>
   void
+  StepEngine<dim>::replace_points(const std::vector<PointRecord<dim>> &records)
+  {
+    cover_points(records);
+    cloud.distribute(background, records);
+    activated = false;
+  }
+
+
+
+  template <int dim>
+  void
   StepEngine<dim>::forget_generated_points()
   {
     generated.clear();
@@ -159,9 +173,7 @@ namespace kedge
     });
     if (dealii::Utilities::MPI::logical_or(close || outside, communicator))
       {
-        const auto records = cloud.records();
-        cover_points(records);
-        cloud.distribute(background, records);
+        replace_points(cloud.records());
         return;
       }
     const std::uint64_t missing = cloud.relocate(background);
@@ -305,7 +317,7 @@ namespace kedge
   void
   StepEngine<dim>::initialise_points(const double t)
   {
-    if (porous != nullptr)
+    if (porous != nullptr && scene.equilibrium.steps == 0) // else the stage has left them
       initialise_fluctuations();
     if (scheme.carries_acceleration)
       initialise_accelerations(t);

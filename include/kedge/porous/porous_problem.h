@@ -3,6 +3,8 @@
 
 #include <kedge/porous/porous_force.h>
 #include <kedge/porous/pressure_blocks.h>
+#include <kedge/porous/pressure_mapping.h>
+#include <kedge/porous/surface_fluxes.h>
 #include <kedge/solid/balance.h>
 #include <kedge/solid/external_loads.h>
 #include <kedge/time_integration/scheme.h>
@@ -39,7 +41,8 @@ namespace kedge
     PorousProblem(const PorousForce<dim>         &force,
                   const ExternalLoads<dim>       &loads,
                   const SurfacePressures<dim>    &surfaces,
-                  const double                    surface_penalty,
+                  const SurfaceFluxes<dim>       &fluxes,
+                  const PorousParameters         &pore_fluid,
                   const Scheme                   &scheme,
                   const LinearSolverParameters   &parameters,
                   const std::vector<double>      &p_wave_modulus_of_body,
@@ -121,7 +124,7 @@ namespace kedge
     std::vector<double>
     ghost_flow() const;
     void
-    guess_pressure();
+    set_supply();
     void
     set_prescribed();
     void
@@ -140,18 +143,21 @@ namespace kedge
     const PorousForce<dim>       porous_force;
     const ExternalLoads<dim>    &loads;
     const SurfacePressures<dim> &surfaces;
+    const SurfaceFluxes<dim>    &fluxes;
     const double                 surface_penalty;
     const Scheme                 scheme;
     const std::vector<double>    modulus_of_body;
     const double                 modulus; ///< the largest
 
-    PorePoints<dim>     pores;
-    PressureBlocks<dim> blocks;
-    bool                blocks_have_pattern = false, blocks_have_values = false;
-    std::vector<double> unknowns;   ///< dim + 1 per node
-    std::vector<double> pressure_n; ///< at the nodes, of the points at n; for the ghosts' storage
-    std::vector<double> acceleration;
-    std::vector<double> outflow; ///< through surfaces with a pressure [m^3]
+    PorePoints<dim>      pores;
+    PressureMapping<dim> pressure_mapping;
+    PressureBlocks<dim>  blocks;
+    bool                 blocks_have_pattern = false, blocks_have_values = false;
+    std::vector<double>  unknowns;   ///< dim + 1 per node
+    std::vector<double>  pressure_n; ///< at the nodes, of the points at n; for the ghosts' storage
+    std::vector<double>  acceleration;
+    std::vector<double>  supply;  ///< by fluxes in this step, as residual; empty: none [m^3]
+    std::vector<double>  outflow; ///< through surfaces with a pressure [m^3]
   };
 } // namespace kedge
 

@@ -160,6 +160,10 @@ namespace kedge
       return nodal;
     }
 
+    /** Goes on from other points, each rank's share of them (collective). */
+    void
+    replace_points(const std::vector<PointRecord<dim>> &records);
+
     /** Points, nodes, unknowns of the present configuration (collective). */
     void
     activate();
@@ -292,6 +296,7 @@ namespace kedge
     NodeTies<dim>         ties;
     ExternalLoads<dim>    loads;
     SurfacePressures<dim> surfaces;
+    SurfaceFluxes<dim>    fluxes;
     NodeMatrix<dim>       mass;
     GhostPenalty<dim>     ghosts;
     GhostMatrices<dim>    ghost_terms;
