@@ -29,9 +29,12 @@ kedge_add_scene_test(scene.translating_body prm/translating_body.prm
 # no penalty on a rigid motion: the same checks to the same tolerances
 kedge_add_scene_test(scene.translating_body.ghost prm/translating_body.prm
   SET "Stabilisation/Method = ghost")
-# the penalties leave matrices with condition numbers up to 1e10: round-off of
-# 1e-16 in the ranks' different sums comes back as 1e-6
-kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm COMPARE_RANKS 1e-5)
+# the penalties leave matrices with condition numbers up to 1e10: the ranks' different
+# sums grow from 1e-16 to 1e-14 by t = 1.9 s. Later some steps are cut in halves or not
+# by how their iterations wander, and what round-off decides there cannot be compared.
+kedge_add_scene_test(scene.small_cuts prm/small_cuts.prm)
+kedge_add_scene_test(scene.small_cuts.ranks prm/small_cuts.prm
+  SET "Constants/steps = 95" COMPARE_RANKS 1e-10)
 kedge_add_scene_test(scene.small_cuts.gimp prm/small_cuts.prm
   SET "Bodies/square/Basis = gimp" "Constants/shift = 3/8")
 kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm
@@ -81,10 +84,24 @@ kedge_add_scene_test(scene.necking_bar prm/necking_bar.prm
 
 # --- Saturated soil ---------------------------------------------------------------
 kedge_add_scene_test(scene.terzaghi prm/terzaghi.prm COMPARE_RANKS 1e-8)
+# early, water carries 1 - 1/(1 + n0 M/2.2e9) = 1.4e-3 of the load less than the series says
 kedge_add_scene_test(scene.terzaghi.early prm/terzaghi.prm
-  SET "Constants/T = 0.02" "Constants/dt = 0.01")
+  SET "Constants/T = 0.02" "Constants/dt = 0.01" "Constants/tolerance = 2e-3")
 kedge_add_scene_test(scene.terzaghi.linear prm/terzaghi.prm
   SET "Constants/T = 0.2" "Bodies/column/Basis = linear")
+# badly cut cells at the drained surface: the series with ghosts, with ties, with nothing
+# (strains of 1e-9: the round-off of F, 1e-16, is 1e-7 of them)
+kedge_add_scene_test(scene.terzaghi_cut prm/terzaghi_cut.prm COMPARE_RANKS 1e-5)
+foreach(method aggregation none)
+  kedge_add_scene_test(scene.terzaghi_cut.${method} prm/terzaghi_cut.prm
+    SET "Stabilisation/Method = ${method}")
+endforeach()
+kedge_add_scene_test(scene.terzaghi_cut.coarse prm/terzaghi_cut.prm
+  SET "Pore fluid/Pressure space = coarse" "Bodies/column/Basis = gimp"
+    "Bodies/column/Points per cell = 4")
+# no ghost term feels a rigid motion: the same checks to the same tolerances
+kedge_add_scene_test(scene.falling_soil.ghost prm/falling_soil.prm
+  SET "Stabilisation/Method = ghost")
 # on the surface itself, thirty per cent of the height away from where it was
 kedge_add_scene_test(scene.gibson prm/gibson.prm
   SET "Output/Points interval = 0" COMPARE_RANKS 1e-7)
@@ -102,11 +119,47 @@ kedge_add_scene_test(scene.footing_flexible prm/footing_flexible.prm
   SET "Output/Points interval = 0")
 kedge_add_scene_test(scene.footing_harmonic prm/footing_harmonic.prm
   SET "Constants/n = 15" "Constants/points = 2" "Output/Points interval = 0")
+# exact at the points of this grid next to the probes; what is left is the error of its cells
+kedge_add_scene_test(scene.footing_harmonic.no_inertia prm/footing_harmonic.prm
+  SET "Constants/n = 15" "Constants/points = 2" "Output/Points interval = 0"
+    "Constants/w = 6e3" "Time/Scheme = quasi-static" "Constants/surface = 0"
+    "Constants/B = 0.1484" "Constants/C = 0.1173" "Constants/tolerance = 0.004"
+    "Constants/below = 0.004")
+kedge_add_scene_test(scene.footing_harmonic.waves prm/footing_harmonic.prm
+  SET "Constants/n = 30" "Constants/points = 2" "Output/Points interval = 0"
+    "Constants/w = 6e3" "Time/Scheme = trapezoidal" "Pore fluid/Bulk modulus = 2.2e11"
+    "Constants/surface = -0.276" "Constants/B = 0.159" "Constants/tolerance = 0.03"
+    "Constants/below = 0.005")
+set(clay "Materials/skeleton/Preconsolidation pressure = 4e5"
+  "Materials/skeleton/Critical state slope = 0.964" "Materials/skeleton/Surface alpha = 0.3"
+  "Materials/skeleton/Surface gamma = 0.9")
+kedge_add_scene_test(scene.layer_at_rest prm/layer_at_rest.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.layer_at_rest.linear prm/layer_at_rest.prm
+  SET "Bodies/soil/Basis = linear" "Materials/skeleton/Model = improved_hencky")
+kedge_add_scene_test(scene.layer_at_rest.critical_state prm/layer_at_rest.prm
+  SET "Materials/skeleton/Model = critical_state" ${clay})
+# strains of 1e-4 are what the tolerance leaves, and the stress is that of whole cells
+kedge_add_scene_test(scene.layer_at_rest.equilibrium prm/layer_at_rest.prm
+  SET "Bodies/soil/Initial stress =" "Bodies/soil/Initial pore pressure = 0"
+    "Equilibrium/Steps = 4" "Equilibrium/Duration = 1e6" "Constants/tolerance = 2e-4"
+    "Constants/depth = H - h/2"
+  COMPARE_RANKS 1e-6)
+kedge_add_restart_test(scene.restart.equilibrium prm/layer_at_rest.prm KILLS 1
+  SET "Bodies/soil/Initial stress =" "Bodies/soil/Initial pore pressure = 0"
+    "Equilibrium/Steps = 4" "Equilibrium/Duration = 1e6" "Constants/tolerance = 2e-4"
+    "Constants/depth = H - h/2"
+    "Output/Checkpoint every steps = 5")
+kedge_add_scene_test(scene.recharge prm/recharge.prm COMPARE_RANKS 1e-8)
+# a linear pressure, but for 4e-6 of the transient: exact if the flux enters at the face itself
+kedge_add_scene_test(scene.recharge.steady prm/recharge.prm
+  SET "Constants/T = 5" "Constants/dt = 5" "Bodies/column/Basis = linear"
+    "Checks/pressures/Tolerance = 1e-4")
+# 1.4e-3 as above, and other shares of the load in the half cell above the loaded points
 foreach(basis linear gimp quadratic)
   kedge_add_scene_test(scene.terzaghi.coarse.${basis} prm/terzaghi.prm
     SET "Constants/T = 0.02" "Constants/n = 20" "Constants/dt = 0.01"
       "Pore fluid/Pressure space = coarse" "Bodies/column/Basis = ${basis}"
-      "Bodies/column/Points per cell = 4" COMPARE_RANKS 1e-8)
+      "Constants/points = 4" "Constants/tolerance = 4e-3" COMPARE_RANKS 1e-8)
 endforeach()
 kedge_add_scene_test(scene.falling_soil.coarse prm/falling_soil.prm
   SET "Pore fluid/Pressure space = coarse" "Bodies/block/Points per cell = 4")
@@ -208,6 +261,17 @@ kedge_add_scene_test(refusal.soil_scheme prm/terzaghi.prm
 kedge_add_scene_test(refusal.dry_pressure prm/terzaghi.prm
   SET "Pore fluid/Density = " "Pore fluid/Hydraulic conductivity = " EXPECT_EXIT 1
   EXPECT_STDERR "Node conditions/top/Pore pressure.*bodies are dry" LABELS refusal)
+kedge_add_scene_test(refusal.missing_flux_face prm/recharge.prm
+  SET "Surface fluxes/rain/Where = y < 0" EXPECT_EXIT 1
+  EXPECT_STDERR "Surface flux 'rain' finds no exposed face" LABELS refusal)
+kedge_add_scene_test(refusal.initial_stress prm/layer_at_rest.prm
+  SET "Materials/skeleton/Model = critical_state" ${clay}
+    "Bodies/soil/Initial stress = 0; -1e6; 0; 0"
+  EXPECT_EXIT 1 EXPECT_STDERR "Bodies/soil/Initial stress at .*beyond the yield surface"
+  LABELS refusal)
+kedge_add_scene_test(refusal.initial_stress_components prm/layer_at_rest.prm
+  SET "Bodies/soil/Initial stress = 0; 0" EXPECT_EXIT 1
+  EXPECT_STDERR "Initial stress.*xx; yy; zz; xy" LABELS refusal)
 kedge_add_scene_test(refusal.missing_face prm/gibson.prm
   SET "Surface pressures/top/Where = x > 1" EXPECT_EXIT 1
   EXPECT_STDERR "Surface pressure 'top' finds no exposed face" LABELS refusal)

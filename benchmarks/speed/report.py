@@ -79,14 +79,20 @@ def rival_table(rivals, problem):
 
 def cheapest(rows, problem, variant, measure, error, finite_element):
     """
-    (time, run) of the cheapest run whose error is no larger, to the four digits that
-    rivals' errors have; None if there is none.
+    (time, run, time without the start of the process) of the cheapest run whose error
+    is no larger, to the four digits that rivals' errors have; None if there is none.
     """
-    times = [(row["user_s"], f"{row['method']} {row['label']}") for row in rows
+    times = [(row["user_s"], f"{row['method']} {row['label']}", row.get("inside_s", "")) for row in rows
              if (row["problem"], row["variant"]) == (problem, variant)
              and row["method"].startswith("FEM") == finite_element
              and row.get(measure, "") != "" and row[measure] <= 1.0005 * error]
     return min(times) if times else None
+
+
+def gain(rival, time):
+    """How many times faster than the rival a run of `time` is, or from how many to how many."""
+    first, last = (other / time for other in rival.time)
+    return first if first == last else f"{number(first)} to {number(last)}"
 
 
 def equal_error(rows, rivals):
@@ -100,13 +106,14 @@ def equal_error(rows, rivals):
                else f"{number(rival.time[0])} to {number(rival.time[1])}"}
         own = cheapest(rows, rival.problem, rival.variant, rival.measure, rival.error[1], False)
         if own:
-            row.update(kedge=own[0], run=own[1], gain=rival.time[0] / own[0] if known else
-                       f"{number(rival.time[0] / own[0])} to {number(rival.time[1] / own[0])}")
+            row.update(kedge=own[0], run=own[1], gain=gain(rival, own[0]), inside=own[2],
+                       inner=gain(rival, own[2]))
         table.append(row)
     return markdown(table, {"problem": "problem", "rival": "program", "label": "its run",
                             "measure": "measure", "error": "its error", "time": "its CPU [s]",
                             "kedge": "kedge [s]", "run": "kedge's run",
-                            "gain": "times faster"})
+                            "gain": "times faster", "inside": "without start [s]",
+                            "inner": "times faster so"})
 
 
 def price(rows):

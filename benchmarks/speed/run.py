@@ -24,6 +24,7 @@ PARTS = {"suite": "run time against error",
          "scaling": "time and memory per point from 1e4 to 1e6 points in 2D",
          "ranks": "one and two processes on 2e5 points in 3D",
          "unneeded": "what a scene pays for that it does not use",
+         "off": "share of what is compiled in but off",
          "scenes": "the time of all scenes of prm/ as they ship",
          "all": "everything, one after the other"}
 

@@ -1,5 +1,7 @@
 """The parts beside the suite: cost by phase, growth, ranks, what is not used, all scenes."""
+import re
 import shutil
+import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -7,7 +9,7 @@ from pathlib import Path
 
 import report
 from measure import demand, ratio, run_interleaved
-from programs import ROOT
+from programs import ROOT, Programs
 from results import Run
 
 HERE = Path(__file__).resolve().parent
@@ -81,7 +83,29 @@ def cost(arg):
     heads = {"kernel": "", "points": "points", "iterations": "iterations per step",
              **{phase: phase for phase in PHASES}, "kernels": "all but the linear solve",
              "whole": "whole run"}
-    return finish(arg, "cost", rows, heads)
+    return finish(arg, "cost", rows, heads, operations(arg, rows))
+
+
+def operations(arg, rows):
+    """Operations and bytes of residual and tangent, and their share of what one core can do."""
+    known = Programs(arg).operations()
+    flops, rate = known["peak_operations_per_second"], known["peak_bytes_per_second"]
+    table = []
+    for row in rows:
+        kernel = known["kernels"][row["kernel"]]
+        for phase in ("residual", "tangent"):
+            count, size = kernel[f"{phase}_operations"], kernel[f"{phase}_bytes"]
+            table.append({"kernel": f"{row['kernel']}, {phase}", "nodes": kernel["nodes"],
+                          "flops": count, "bytes": size, "time": row[phase],
+                          "share": 100 * count / (1e-6 * row[phase]) / flops,
+                          "traffic": 100 * size / (1e-6 * row[phase]) / rate})
+    report.write_csv(table, arg.output / "operations.csv")
+    return ("\n" + report.markdown(table, {
+        "kernel": "kernel", "nodes": "nodes", "flops": "operations per point",
+        "bytes": "bytes per point", "time": "us per point and iteration",
+        "share": "% of the peak's operations", "traffic": "% of the memory's rate"})
+            + f"\nPeak of one core, measured: {flops / 1e9:.0f} Gflop/s with {known['lanes']} lanes, "
+            f"{rate / 1e9:.0f} GB/s from memory.\n")
 
 
 def matrix_bytes(run, basis):
@@ -98,7 +122,7 @@ def scaling(arg):
     """Time per point and step and memory per point over the number of points, 2D."""
     sizes = {"short": (8, 16), "medium": (50, 158)}.get(arg.level, (50, 158, 500))
     runs = [(f"{basis} {n}", "block_2d.prm",
-             {"Constants/n": n, "Constants/steps": 3, "Bodies/block/Basis": basis})
+             {"Constants/n": n, "Constants/steps": 10, "Bodies/block/Basis": basis})
             for basis in ("linear", "gimp") for n in sizes]
     empty = [("smallest", "block_2d.prm", {"Constants/n": 4, "Constants/steps": 1})]
     measured = measure(arg, "scaling", empty + runs)
@@ -186,6 +210,39 @@ def unneeded(arg):
         "inside": "start left out", "memory": "memory [MB]"})
 
 
+# Functions, by what a scene may do without.
+OFF = {"plasticity": "VonMises|CriticalState|ImprovedHencky",
+       "small cuts (ties, ghosts)": "NodeTies|TiedRows|Ghost|ghost",
+       "locking remedy": "GroupLaw|MeanDilatation|group_dilatation|find_groups|add_group",
+       "audit of the mappings": "audit",
+       "saturated soil": "Porous|Pore|porous|SurfacePressures",
+       "pictures and probes": "PointsOutput|GridOutput|VtuFile|ProbeWriter|point_fields"}
+
+
+def off(arg):
+    """Share of samples in functions of what is off, in an elastic run without ties."""
+    perf = shutil.which("perf")
+    if not perf:
+        print("off: this part needs perf (linux-perf); left out\n")
+        return 0
+    n = {"short": 8, "medium": 40}.get(arg.level, 60)
+    data = arg.output / "off.data"
+    line = command(arg.kedge, "block_2d.prm", arg.output / "off",
+                   {"Constants/n": n, "Constants/steps": 20, "Stabilisation/Method": "none"})
+    subprocess.run([perf, "record", "-q", "-F", "2000", "-o", str(data)] + line, check=True,
+                   stdout=subprocess.DEVNULL)
+    report_text = subprocess.run([perf, "report", "-i", str(data), "--stdio", "--no-children",
+                                  "-F", "sample,sym"], check=True, capture_output=True,
+                                 text=True).stdout
+    samples = re.findall(r"^ *(\d+) +\[.\] (.*)$", report_text, re.M)
+    total = sum(int(count) for count, _ in samples)
+    rows = [{"off": name, "share": 100 * sum(int(count) for count, symbol in samples
+                                             if re.search(pattern, symbol)) / total}
+            for name, pattern in OFF.items()]
+    return finish(arg, "off", rows, {"off": "compiled in but off", "share": "% of the run"},
+                  f"\n{total} samples of the processor's time, the start of the process included.\n")
+
+
 def scenes(arg):
     """All scenes of prm/ as they ship, two at a time, the longest first; no element tests."""
     longest = ["taylor_bar", "cantilever_dynamic_b_cell_mean", "strip_footing", "necking_bar",
@@ -217,4 +274,5 @@ def scenes(arg):
         "checks": "checks passed"}, note)
 
 
-PARTS = {"cost": cost, "scaling": scaling, "ranks": ranks, "unneeded": unneeded, "scenes": scenes}
+PARTS = {"cost": cost, "scaling": scaling, "ranks": ranks, "unneeded": unneeded,
+         "off": off, "scenes": scenes}

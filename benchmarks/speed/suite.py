@@ -42,6 +42,7 @@ def row_of(case, cost, folder):
         return row
     run = Run(folder)
     row.update(run.counts())
+    row["inside_s"] = run.summary.get("wall_seconds", "")
     work = row["points"] * row["newton"]
     row["us"] = 1e6 * row["user_s"] / work if work else ""
     row.update({name: value for name, value in MEASURES[case.problem](run).items()

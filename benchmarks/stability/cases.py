@@ -1,36 +1,12 @@
 """The matrix of the stability bench: small hard scenes, each with its settings."""
-from dataclasses import dataclass, field
-
-SHIFTS = [k / 8 for k in range(8)]
-BASES = ["linear", "gimp"]
-
-
-@dataclass
-class Case:
-    """One run: a scene and the values set on top of it."""
-    group: str
-    name: str
-    scene: str
-    settings: dict = field(default_factory=dict)
-    short: bool = False  # part of the short bench
-    scene_in_prm: bool = False
-    conserving: bool = True  # the scheme promises the books to round-off
-
-
-def basis(body, kind):
-    """The setting of a body's basis."""
-    return {f"Bodies/{body}/Basis": kind}
+from case import BASES, SHIFTS, Case, basis, constants
+from saturated_cases import saturated_cases
 
 
 def von_mises(material, yield_radius):
     """Makes a material yield."""
     return {f"Materials/{material}/Model": "von_mises",
             f"Materials/{material}/Yield radius rho_y": yield_radius}
-
-
-def constants(**values):
-    """Settings of the section Constants."""
-    return {f"Constants/{name}": value for name, value in values.items()}
 
 
 def shifts_and_points():
@@ -131,4 +107,4 @@ def all_cases():
     """Every case of the bench, in order."""
     parts = [shifts_and_points, steps_and_compressibility, aspects, in_3d, violence,
              unlike_neighbours, endurance]
-    return [case for part in parts for case in part()]
+    return [case for part in parts for case in part()] + saturated_cases()

@@ -60,10 +60,14 @@ namespace kedge
   BackgroundGrid<dim>::create_triangulation(const std::vector<unsigned int> &weights,
                                             const LatticeWindow<dim>        &weighted_cells)
   {
+    using Distributed = dealii::parallel::distributed::Triangulation<dim>;
     cell_iterators.clear();
-    dof_handler_.reset();
-    triangulation_ =
-      std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(communicator_);
+    dof_handler.reset();
+    // p4est takes four times as long as one process needs without it
+    if (parallel())
+      triangulation_ = std::make_unique<Distributed>(communicator_);
+    else
+      triangulation_ = std::make_unique<dealii::Triangulation<dim>>();
 
     dealii::Point<dim>        low = lattice_.node_position(window_.low), high;
     std::vector<unsigned int> trees(dim);
@@ -75,23 +79,32 @@ namespace kedge
     dealii::GridGenerator::subdivided_hyper_rectangle(*triangulation_, trees, low, high);
     if (n_refinements > 0)
       triangulation_->refine_global(n_refinements);
+    if (!parallel())
+      return;
 
-    if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1)
-      {
-        // an empty cell weighs 1, so that empty regions are shared out too
-        const auto weight = [&](const auto &cell, const auto) -> unsigned int {
-          const LatticeIndex<dim> index = lattice_.cell_of(cell->center());
-          return 1u + (weighted_cells.contains_cell(index)
-                         ? 1000u * weights[weighted_cells.cell_number(index)]
-                         : 0u);
-        };
-        const auto connection = triangulation_->signals.weight.connect(weight);
-        triangulation_->repartition();
-        connection.disconnect();
-      }
+    share_out_cells(dynamic_cast<Distributed &>(*triangulation_), weights, weighted_cells);
+    dof_handler = std::make_unique<dealii::DoFHandler<dim>>(*triangulation_);
+    dof_handler->distribute_dofs(element);
+  }
 
-    dof_handler_ = std::make_unique<dealii::DoFHandler<dim>>(*triangulation_);
-    dof_handler_->distribute_dofs(element);
+
+
+  template <int dim>
+  void
+  BackgroundGrid<dim>::share_out_cells(dealii::parallel::distributed::Triangulation<dim> &cells,
+                                       const std::vector<unsigned int>                   &weights,
+                                       const LatticeWindow<dim> &weighted_cells) const
+  {
+    // an empty cell weighs 1, so that empty regions are shared out too
+    const auto weight = [&](const auto &cell, const auto) -> unsigned int {
+      const LatticeIndex<dim> index = lattice_.cell_of(cell->center());
+      return 1u + (weighted_cells.contains_cell(index)
+                     ? 1000u * weights[weighted_cells.cell_number(index)]
+                     : 0u);
+    };
+    const auto connection = cells.signals.weight.connect(weight);
+    cells.repartition();
+    connection.disconnect();
   }
 
 
@@ -126,20 +139,19 @@ namespace kedge
   void
   BackgroundGrid<dim>::tabulate_node_owners()
   {
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator_);
     node_owners.assign(window_.n_nodes_total(), 0);
-    if (n_ranks == 1)
+    if (!parallel())
       return;
 
     const auto ranges =
-      dealii::Utilities::MPI::all_gather(communicator_, dof_handler_->locally_owned_dofs());
+      dealii::Utilities::MPI::all_gather(communicator_, dof_handler->locally_owned_dofs());
     std::vector<dealii::types::global_dof_index> first_of_next;
     for (const auto &range : ranges)
       first_of_next.push_back((first_of_next.empty() ? 0 : first_of_next.back()) +
                               range.n_elements());
 
     std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
-    for (const auto &cell : dof_handler_->active_cell_iterators())
+    for (const auto &cell : dof_handler->active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int v : cell->vertex_indices())
           {

@@ -38,7 +38,8 @@ namespace kedge
     names.push_back("angular_momentum_z");
     names.insert(names.end(), reactions.begin(), reactions.end());
     if (pores)
-      names.insert(names.end(), {"solid_mass", "fluid_mass", "fluid_inflow", "min_porosity"});
+      names.insert(names.end(),
+                   {"solid_mass", "fluid_mass", "fluid_inflow", "fluid_error", "min_porosity"});
     names.insert(names.end(),
                  {"mass", "n_points", "n_active_cells", "n_dofs", "min_det_F", "wall_time"});
     return names;
@@ -80,7 +81,8 @@ namespace kedge
     for (unsigned int k = 0; k < columns.reactions.size(); ++k) // none before the first step
       *file << (k < row.reactions.size() ? row.reactions[k] : 0.);
     if (columns.pores)
-      *file << row.solid_mass << row.fluid_mass << row.fluid_inflow << row.min_porosity;
+      *file << row.solid_mass << row.fluid_mass << row.fluid_inflow << row.fluid_error
+            << row.min_porosity;
     *file << row.mass << row.n_points << row.n_active_cells << row.n_dofs << row.min_det_F
           << row.wall_time;
     file->end_row();

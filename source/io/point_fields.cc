@@ -54,231 +54,200 @@ namespace kedge
       return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3. * shear);
     }
 
-    template <int dim>
-    std::vector<PointField<dim>>
-    kinematic_fields()
+    template <int dim, auto member>
+    void
+    scalar_of_state(const PointRecord<dim> &point, double *values)
     {
-      using P = const PointRecord<dim> &;
-      using F = PointField<dim>;
-      return {F{"position",
-                "m",
-                "place x",
-                FieldShape::vector,
-                false,
-                [](P p, double *v) {
-                  put_vector<dim>(p.location, v);
-                }},
-              F{"displacement",
-                "m",
-                "x - X",
-                FieldShape::vector,
-                false,
-                [](P p, double *v) {
-                  put_vector<dim>(p.state.displacement, v);
-                }},
-              F{"velocity",
-                "m/s",
-                "velocity",
-                FieldShape::vector,
-                false,
-                [](P p, double *v) {
-                  put_vector<dim>(p.state.velocity, v);
-                }},
-              F{"acceleration",
-                "m/s^2",
-                "acceleration",
-                FieldShape::vector,
-                false,
-                [](P p, double *v) {
-                  put_vector<dim>(p.state.acceleration, v);
-                }},
-              F{"deformation_gradient",
-                "-",
-                "F = dx/dX",
-                FieldShape::tensor,
-                false,
-                [](P p, double *v) {
-                  for (unsigned int i = 0; i < 3; ++i)
-                    for (unsigned int j = 0; j < 3; ++j)
-                      v[3 * i + j] = i < dim && j < dim ? p.state.deformation_gradient[i][j]
-                                     : i == j           ? 1.
-                                                        : 0.;
-                }},
-              F{"det_F",
-                "-",
-                "volume over initial volume",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = det_F(p);
-                }},
-              F{"half_lengths",
-                "m",
-                "half the edge lengths of the GIMP domain",
-                FieldShape::vector,
-                false,
-                [](P p, double *v) {
-                  put_vector<dim>(p.state.half_lengths, v);
-                }}};
+      *values = point.state.*member;
+    }
+
+    template <int dim, auto member>
+    void
+    vector_of_state(const PointRecord<dim> &point, double *values)
+    {
+      put_vector<dim>(point.state.*member, values);
     }
 
     template <int dim>
-    std::vector<PointField<dim>>
-    stress_fields()
+    void
+    deformation_gradient(const PointRecord<dim> &point, double *values)
     {
-      using P = const PointRecord<dim> &;
-      using F = PointField<dim>;
-      return {F{"kirchhoff_stress",
-                "Pa",
-                "det F times the Cauchy stress",
-                FieldShape::symmetric_tensor,
-                false,
-                [](P p, double *v) {
-                  put_stress(p.state, 1., v);
-                }},
-              F{"cauchy_stress",
-                "Pa",
-                "Cauchy stress, tension positive",
-                FieldShape::symmetric_tensor,
-                false,
-                [](P p, double *v) {
-                  put_stress(p.state, det_F(p), v);
-                }},
-              F{"pressure",
-                "Pa",
-                "- tr(Cauchy stress) / 3",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  double stress[6];
-                  put_stress(p.state, det_F(p), stress);
-                  *v = -(stress[0] + stress[1] + stress[2]) / 3.;
-                }},
-              F{"von_mises_stress",
-                "Pa",
-                "sqrt(3/2 s:s), s the deviator of the Cauchy stress",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  double stress[6];
-                  put_stress(p.state, det_F(p), stress);
-                  *v = von_mises(stress);
-                }}};
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          values[3 * i + j] = i < dim && j < dim ? point.state.deformation_gradient[i][j]
+                              : i == j           ? 1.
+                                                 : 0.;
     }
 
     template <int dim>
-    std::vector<PointField<dim>>
-    other_fields()
+    void
+    cauchy_stress(const PointRecord<dim> &point, double *values)
     {
-      using P = const PointRecord<dim> &;
-      using F = PointField<dim>;
-      return {F{"strain_energy",
-                "J/m^3",
-                "elastic energy per initial volume",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = p.state.strain_energy;
-                }},
-              F{"kinetic_energy",
-                "J/m^3",
-                "kinetic energy per initial volume",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v =
-                    0.5 * p.state.mass * p.state.velocity.norm_square() / p.state.reference_volume;
-                }},
-              F{"mass",
-                "kg (kg/m in 2D)",
-                "mass",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = p.state.mass;
-                }},
-              F{"volume",
-                "m^3 (m^2 in 2D)",
-                "volume now",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = p.state.reference_volume * det_F(p);
-                }},
-              F{"body",
-                "-",
-                "index of its body",
-                FieldShape::scalar,
-                true,
-                [](P p, double *v) {
-                  *v = p.state.body;
-                }},
-              F{"id",
-                "-",
-                "unique in the run, never changes",
-                FieldShape::scalar,
-                true,
-                [](P p, double *v) {
-                  *v = static_cast<double>(p.id);
-                }},
-              F{"equivalent_plastic_strain",
-                "-",
-                "accumulated",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = p.state.equivalent_plastic_strain;
-                }},
-              F{"plastic_dissipation",
-                "J/m^3",
-                "accumulated, per initial volume",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = p.state.plastic_dissipation;
-                }}};
+      put_stress(point.state, det_F(point), values);
     }
 
     template <int dim>
-    std::vector<PointField<dim>>
-    pore_fields()
+    void
+    total_stress(const PointRecord<dim> &point, double *values)
     {
-      using P = const PointRecord<dim> &;
-      using F = PointField<dim>;
-      return {F{"pore_pressure",
-                "Pa",
-                "pressure of the pore fluid, positive in compression",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = p.state.pore_pressure;
-                }},
-              F{"porosity",
-                "-",
-                "pores over volume now",
-                FieldShape::scalar,
-                false,
-                [](P p, double *v) {
-                  *v = p.state.porosity;
-                }},
-              F{"darcy_velocity",
-                "m/s",
-                "volume of fluid per area and time, through the skeleton",
-                FieldShape::vector,
-                false,
-                [](P p, double *v) {
-                  put_vector<dim>(p.state.darcy_velocity, v);
-                }},
-              F{"total_stress",
-                "Pa",
-                "Cauchy stress less the pore pressure, tension positive",
-                FieldShape::symmetric_tensor,
-                false,
-                [](P p, double *v) {
-                  put_stress(p.state, det_F(p), v);
-                  for (int i = 0; i < 3; ++i)
-                    v[i] -= p.state.pore_pressure;
-                }}};
+      cauchy_stress(point, values);
+      for (int i = 0; i < 3; ++i)
+        values[i] -= point.state.pore_pressure;
+    }
+
+    template <int dim>
+    void
+    kinetic_energy(const PointRecord<dim> &point, double *value)
+    {
+      const auto &state = point.state;
+      *value            = 0.5 * state.mass * state.velocity.norm_square() / state.reference_volume;
+    }
+
+    template <int dim>
+    void
+    mean_pressure(const PointRecord<dim> &point, double *value)
+    {
+      double stress[6];
+      cauchy_stress(point, stress);
+      *value = -(stress[0] + stress[1] + stress[2]) / 3.;
+    }
+
+    template <int dim>
+    void
+    von_mises_stress(const PointRecord<dim> &point, double *value)
+    {
+      double stress[6];
+      cauchy_stress(point, stress);
+      *value = von_mises(stress);
+    }
+
+    template <int dim>
+    struct FieldList
+    {
+      using Evaluate = void (*)(const PointRecord<dim> &, double *);
+
+      void
+      add(const char *name,
+          const char *unit,
+          const char *meaning,
+          Evaluate    evaluate,
+          FieldShape  shape   = FieldShape::scalar,
+          bool        integer = false)
+      {
+        fields.push_back({name, unit, meaning, shape, integer, evaluate});
+      }
+
+      std::vector<PointField<dim>> fields;
+    };
+
+    template <int dim>
+    void
+    add_kinematic_fields(FieldList<dim> &list)
+    {
+      using P           = const PointRecord<dim> &;
+      using S           = PointState<dim>;
+      const auto vector = FieldShape::vector;
+      const auto place  = [](P p, double *v) {
+        put_vector<dim>(p.location, v);
+      };
+      const auto volume = [](P p, double *v) {
+        *v = det_F(p);
+      };
+      list.add("position", "m", "place x", place, vector);
+      list.add("displacement", "m", "x - X", vector_of_state<dim, &S::displacement>, vector);
+      list.add("velocity", "m/s", "velocity", vector_of_state<dim, &S::velocity>, vector);
+      list.add("acceleration",
+               "m/s^2",
+               "acceleration",
+               vector_of_state<dim, &S::acceleration>,
+               vector);
+      list.add("deformation_gradient",
+               "-",
+               "F = dx/dX",
+               deformation_gradient<dim>,
+               FieldShape::tensor);
+      list.add("det_F", "-", "volume over initial volume", volume);
+      list.add("half_lengths",
+               "m",
+               "half the edge lengths of the GIMP domain",
+               vector_of_state<dim, &S::half_lengths>,
+               vector);
+    }
+
+    template <int dim>
+    void
+    add_stress_fields(FieldList<dim> &list)
+    {
+      using P              = const PointRecord<dim> &;
+      const auto symmetric = FieldShape::symmetric_tensor;
+      const auto kirchhoff = [](P p, double *v) {
+        put_stress(p.state, 1., v);
+      };
+      list.add("kirchhoff_stress", "Pa", "det F times the Cauchy stress", kirchhoff, symmetric);
+      list.add("cauchy_stress",
+               "Pa",
+               "Cauchy stress, tension positive",
+               cauchy_stress<dim>,
+               symmetric);
+      list.add("pressure", "Pa", "- tr(Cauchy stress) / 3", mean_pressure<dim>);
+      list.add("von_mises_stress",
+               "Pa",
+               "sqrt(3/2 s:s), s the deviator of the Cauchy stress",
+               von_mises_stress<dim>);
+    }
+
+    template <int dim>
+    void
+    add_other_fields(FieldList<dim> &list)
+    {
+      using P           = const PointRecord<dim> &;
+      using S           = PointState<dim>;
+      const auto volume = [](P p, double *v) {
+        *v = p.state.reference_volume * det_F(p);
+      };
+      const auto id = [](P p, double *v) {
+        *v = static_cast<double>(p.id);
+      };
+      const auto scalar = FieldShape::scalar;
+      list.add("strain_energy",
+               "J/m^3",
+               "elastic energy per initial volume",
+               scalar_of_state<dim, &S::strain_energy>);
+      list.add("kinetic_energy", "J/m^3", "kinetic energy per initial volume", kinetic_energy<dim>);
+      list.add("mass", "kg (kg/m in 2D)", "mass", scalar_of_state<dim, &S::mass>);
+      list.add("volume", "m^3 (m^2 in 2D)", "volume now", volume);
+      list.add("body", "-", "index of its body", scalar_of_state<dim, &S::body>, scalar, true);
+      list.add("id", "-", "unique in the run, never changes", id, scalar, true);
+      list.add("equivalent_plastic_strain",
+               "-",
+               "accumulated",
+               scalar_of_state<dim, &S::equivalent_plastic_strain>);
+      list.add("plastic_dissipation",
+               "J/m^3",
+               "accumulated, per initial volume",
+               scalar_of_state<dim, &S::plastic_dissipation>);
+    }
+
+    template <int dim>
+    void
+    add_pore_fields(FieldList<dim> &list)
+    {
+      using S = PointState<dim>;
+      list.add("pore_pressure",
+               "Pa",
+               "pressure of the pore fluid, positive in compression",
+               scalar_of_state<dim, &S::pore_pressure>);
+      list.add("porosity", "-", "pores over volume now", scalar_of_state<dim, &S::porosity>);
+      list.add("darcy_velocity",
+               "m/s",
+               "volume of fluid per area and time, through the skeleton",
+               vector_of_state<dim, &S::darcy_velocity>,
+               FieldShape::vector);
+      list.add("total_stress",
+               "Pa",
+               "Cauchy stress less the pore pressure, tension positive",
+               total_stress<dim>,
+               FieldShape::symmetric_tensor);
     }
 
     [[noreturn]] void
@@ -355,11 +324,12 @@ namespace kedge
   point_fields()
   {
     static const std::vector<PointField<dim>> fields = []() {
-      std::vector<PointField<dim>> all;
-      for (const auto &group :
-           {kinematic_fields<dim>(), stress_fields<dim>(), other_fields<dim>(), pore_fields<dim>()})
-        all.insert(all.end(), group.begin(), group.end());
-      return all;
+      FieldList<dim> list;
+      add_kinematic_fields(list);
+      add_stress_fields(list);
+      add_other_fields(list);
+      add_pore_fields(list);
+      return list.fields;
     }();
     return fields;
   }

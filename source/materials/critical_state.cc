@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <type_traits>
 
 namespace kedge
@@ -45,6 +46,34 @@ namespace kedge
         return x;
       }
     };
+
+    /** Hencky's law: phi/A falls with the volume all the way. */
+    double
+    largest_compression(const CriticalState<Hencky> &, const double)
+    {
+      return -std::numeric_limits<double>::infinity();
+    }
+
+    /**
+     * Elastic volume strain at which phi/A is smallest, at the porosity n. Beyond it A,
+     * which grows with the square of the strain over n, overtakes phi: at pressures of
+     * hundreds of MPa the surface ends, and what lies there is no state that soil comes
+     * to from within it. With s = K~/n, c = (1 - n)/n:
+     *   s c eps^2/2 + shift (c eps - 1) - a_0/(1 - gamma) = 0.
+     */
+    double
+    largest_compression(const CriticalState<ImprovedHencky> &law, const double n)
+    {
+      if (law.surface_gamma >= 1.)
+        return -std::numeric_limits<double>::infinity();
+      const double s = law.elastic.bulk_parameter / n, c = (1. - n) / n, a = law.shift;
+      const double eps =
+        -(a * c +
+          std::sqrt(a * c * a * c + 2. * s * c * (a + law.centre / (1. - law.surface_gamma)))) /
+        (s * c);
+      // if the surface does not even reach it, all of the axis is elastic
+      return law.surface(eps, 0., n).excess > 0. ? eps : -std::numeric_limits<double>::infinity();
+    }
   } // namespace
 
 
@@ -125,7 +154,7 @@ namespace kedge
     {
       const VolumetricResponse at_zero = volumetric_response(law.elastic, 0., n);
       double                   inside  = -law.shift / at_zero.dissipative_slope;
-      double                   outside = trial_volume;
+      double                   outside = std::max(trial_volume, largest_compression(law, n));
       for (unsigned int i = 0; i < most_bisections; ++i)
         {
           volume                   = 0.5 * (inside + outside);
@@ -234,13 +263,14 @@ namespace kedge
                                                const double n,
                                                Return      &result) const
   {
-    result.volume     = trial_volume;
-    result.shear      = trial_shear;
-    result.multiplier = 0.;
-    return (result.evaluate(*this, trial_volume, trial_shear, n) &&
-            result.iterate(*this, trial_volume, trial_shear, n)) ||
+    result.volume      = trial_volume;
+    result.shear       = trial_shear;
+    result.multiplier  = 0.;
+    const double limit = largest_compression(*this, n);
+    return (trial_volume >= limit && result.evaluate(*this, trial_volume, trial_shear, n) &&
+            result.iterate(*this, trial_volume, trial_shear, n) && result.volume >= limit) ||
            (result.start_near(*this, trial_volume, trial_shear, n) &&
-            result.iterate(*this, trial_volume, trial_shear, n));
+            result.iterate(*this, trial_volume, trial_shear, n) && result.volume >= limit);
   }
 
 
@@ -325,17 +355,20 @@ namespace kedge
     response.shear_shear   = 2. * elastic.shear_modulus;
     response.secant_shear  = 2. * elastic.shear_modulus;
     response.work_coupling = 0.;
-    double pressure        = at.volume.pressure;
-    double rho             = at.rho;
-    if (!(at.A > 0. && at.B > 0. && at.excess <= tolerance))
+    double     pressure    = at.volume.pressure;
+    double     rho         = at.rho;
+    const bool has_meaning = at.A > 0. && at.B > 0. && strain >= largest_compression(*this, n);
+    if (!(has_meaning && at.excess <= tolerance))
       {
         Return result;
-        response.valid = return_to_surface(strain, shear, n, result);
-        if (!response.valid)
-          return response;
-        set_plastic(result, strain, shear, n, response);
-        pressure = result.surface.volume.pressure;
-        rho      = result.surface.rho;
+        if (return_to_surface(strain, shear, n, result))
+          {
+            set_plastic(result, strain, shear, n, response);
+            pressure = result.surface.volume.pressure;
+            rho      = result.surface.rho;
+          }
+        else // a state that was returned to the surface may lie off it by round-off
+          response.valid = has_meaning && at.excess <= loose_tolerance;
       }
     for (int i = 0; i < 3; ++i)
       response.kirchhoff_stress[i] = pressure + rho * response.flow[i];

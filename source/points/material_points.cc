@@ -114,6 +114,7 @@ namespace kedge
       move_some(grid, most, cell);
     while (
       dealii::Utilities::MPI::logical_or(cell != grid.triangulation().end(), grid.communicator()));
+    handler->update_cached_numbers();
     return n_global_ - handler->n_global_particles();
   }
 
@@ -125,35 +126,44 @@ namespace kedge
                                  const std::size_t          most,
                                  ActiveCell                &cell)
   {
-    using Iterator = typename dealii::Particles::ParticleHandler<dim>::particle_iterator;
-    const unsigned int    rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
-    std::vector<Iterator> movers;
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
     std::vector<PointRecord<dim>> staying, leaving;
-    for (; cell != grid.triangulation().end() && movers.size() < most; ++cell)
+    for (; cell != grid.triangulation().end() && staying.size() + leaving.size() < most; ++cell)
       if (cell->is_locally_owned())
-        {
-          const auto particles = handler->particles_in_cell(cell);
-          for (auto particle = particles.begin(); particle != particles.end(); ++particle)
-            {
-              const auto new_cell = grid.lattice().cell_of(particle->get_location());
-              const bool stays    = grid.cell_owner(new_cell) == rank;
-              if (stays && cell == grid.cell_iterator(new_cell))
-                continue;
-              movers.push_back(particle);
-              (stays ? staying : leaving)
-                .push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
-            }
-        }
-    const bool parallel = dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1;
-    if (!parallel && movers.empty())
-      return;
-    handler->remove_particles(movers); // counts the particles anew: collective
+        take_movers(grid, cell, rank, staying, leaving);
     for (const auto &record : staying)
       insert(grid, record);
-    if (parallel)
+    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
       for (const auto &record : send_to_owners(grid, leaving))
         insert(grid, record);
-    handler->update_cached_numbers();
+  }
+
+
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::take_movers(const BackgroundGrid<dim>     &grid,
+                                   const ActiveCell              &cell,
+                                   const unsigned int             rank,
+                                   std::vector<PointRecord<dim>> &staying,
+                                   std::vector<PointRecord<dim>> &leaving)
+  {
+    std::vector<unsigned int> places; // of the movers in the cell
+    unsigned int              place     = 0;
+    const auto                particles = handler->particles_in_cell(cell);
+    for (auto particle = particles.begin(); particle != particles.end(); ++particle, ++place)
+      {
+        const auto new_cell = grid.lattice().cell_of(particle->get_location());
+        const bool stays    = grid.cell_owner(new_cell) == rank;
+        if (stays && cell == grid.cell_iterator(new_cell))
+          continue;
+        places.push_back(place);
+        (stays ? staying : leaving)
+          .push_back({particle->get_id(), particle->get_location(), state_of(*particle)});
+      }
+    // to remove one invalidates the iterators of its cell: those before it keep their places
+    for (auto last = places.rbegin(); last != places.rend(); ++last)
+      handler->remove_particle(std::next(handler->particles_in_cell(cell).begin(), *last));
   }
 
   template class MaterialPoints<2>;

@@ -2,50 +2,6 @@
 
 namespace kedge
 {
-  namespace
-  {
-    /** Calls run(context of a batch) for all batches until @p failed() is true. */
-    template <int dim, typename Run>
-    void
-    for_batches(const std::vector<Material> &materials,
-                const std::vector<Soil>     &soils,
-                const double                 alpha,
-                const PoreScheme            &scheme,
-                const StepPoints<dim>       &points,
-                const PorePoints<dim>       &pores,
-                const LatticeWindow<dim>    &window,
-                const ActiveNodes<dim>      &nodes,
-                const PorousTrial<dim>      &trial,
-                const Run                   &run)
-    {
-      for (const auto &batch : points.batches)
-        {
-          const Soil &soil = soils[batch.body];
-          PoreStep<dim>
-            step{soil, scheme, trial.dt, alpha, trial.inertia, 1. / trial.cell_size, {}};
-          for (int d = 0; d < dim && soil.has_body_force; ++d)
-            step.acceleration[d] = trial.body_force[d];
-          const bool goes_on = std::visit(
-            [&](const auto &material) {
-              using M = std::decay_t<decltype(material)>;
-              return run(internal::PorousBatch<dim, M>{points,
-                                                       pores,
-                                                       window,
-                                                       nodes,
-                                                       trial,
-                                                       batch,
-                                                       step,
-                                                       material});
-            },
-            materials[batch.body]);
-          if (!goes_on)
-            return;
-        }
-    }
-  } // namespace
-
-
-
   template <int dim>
   PorousForce<dim>::PorousForce(const std::vector<Material> &material_of_body,
                                 const std::vector<Soil>     &soil_of_body,
@@ -56,6 +12,38 @@ namespace kedge
     , alpha(alpha)
     , pore_scheme(scheme)
   {}
+
+
+
+  template <int dim>
+  template <class Run>
+  void
+  PorousForce<dim>::for_batches(const StepPoints<dim>    &points,
+                                const PorePoints<dim>    &pores,
+                                const LatticeWindow<dim> &window,
+                                const ActiveNodes<dim>   &nodes,
+                                const PorousTrial<dim>   &trial,
+                                const Run                &run) const
+  {
+    for (const auto &batch : points.batches)
+      {
+        const Soil &soil = soil_of_body[batch.body];
+        PoreStep<dim>
+          step{soil, pore_scheme, trial.dt, alpha, trial.inertia, 1. / trial.cell_size, {}};
+        for (int d = 0; d < dim && soil.has_body_force; ++d)
+          step.acceleration[d] = trial.body_force[d];
+        const bool goes_on = std::visit(
+          [&](const auto &material) {
+            using M = std::decay_t<decltype(material)>;
+            return run(
+              internal::PorousBatch<dim,
+                                    M>{points, pores, window, nodes, trial, batch, step, material});
+          },
+          material_of_body[batch.body]);
+        if (!goes_on)
+          return;
+      }
+  }
 
 
 
@@ -71,29 +59,19 @@ namespace kedge
                                  PorousSize               &size) const
   {
     PointStatus status;
-    for_batches(material_of_body,
-                soil_of_body,
-                alpha,
-                pore_scheme,
-                points,
-                pores,
-                window,
-                nodes,
-                trial,
-                [&](const auto &batch) {
-                  using M = std::decay_t<decltype(batch.material)>;
-                  dispatch_pattern<dim>(
-                    batch.batch.pattern,
-                    internal::PorousResidualKernel<dim, M>{batch, residual, size, status});
-                  if (status.ok())
-                    internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
-                      dispatch_pattern<dim>(batch.batch.pattern,
-                                            internal::SurfaceResidualKernel<dim, M>{{batch, face},
-                                                                                    residual,
-                                                                                    outflow});
-                    });
-                  return status.ok();
-                });
+    for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
+      using M = std::decay_t<decltype(batch.material)>;
+      dispatch_pattern<dim>(batch.batch.pattern,
+                            internal::PorousResidualKernel<dim, M>{batch, residual, size, status});
+      if (status.ok())
+        internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
+          dispatch_pattern<dim>(batch.batch.pattern,
+                                internal::SurfaceResidualKernel<dim, M>{{batch, face},
+                                                                        residual,
+                                                                        outflow});
+        });
+      return status.ok();
+    });
     return status;
   }
 
@@ -108,26 +86,16 @@ namespace kedge
                                 const PorousTrial<dim>   &trial,
                                 NodeMatrix<dim>          &tangent) const
   {
-    for_batches(material_of_body,
-                soil_of_body,
-                alpha,
-                pore_scheme,
-                points,
-                pores,
-                window,
-                nodes,
-                trial,
-                [&](const auto &batch) {
-                  using M = std::decay_t<decltype(batch.material)>;
-                  dispatch_pattern<dim>(batch.batch.pattern,
-                                        internal::PorousTangentKernel<dim, M>{batch, tangent});
-                  internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
-                    dispatch_pattern<dim>(batch.batch.pattern,
-                                          internal::SurfaceTangentKernel<dim, M>{{batch, face},
-                                                                                 tangent});
-                  });
-                  return true;
-                });
+    for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
+      using M = std::decay_t<decltype(batch.material)>;
+      dispatch_pattern<dim>(batch.batch.pattern,
+                            internal::PorousTangentKernel<dim, M>{batch, tangent});
+      internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
+        dispatch_pattern<dim>(batch.batch.pattern,
+                              internal::SurfaceTangentKernel<dim, M>{{batch, face}, tangent});
+      });
+      return true;
+    });
   }
 
 
@@ -142,21 +110,12 @@ namespace kedge
                                      std::vector<PoreUpdate<dim>> &updates) const
   {
     updates.resize(points.size());
-    for_batches(material_of_body,
-                soil_of_body,
-                alpha,
-                pore_scheme,
-                points,
-                pores,
-                window,
-                nodes,
-                trial,
-                [&](const auto &batch) {
-                  using M = std::decay_t<decltype(batch.material)>;
-                  dispatch_pattern<dim>(batch.batch.pattern,
-                                        internal::PoreUpdateKernel<dim, M>{batch, updates});
-                  return true;
-                });
+    for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
+      using M = std::decay_t<decltype(batch.material)>;
+      dispatch_pattern<dim>(batch.batch.pattern,
+                            internal::PoreUpdateKernel<dim, M>{batch, updates});
+      return true;
+    });
   }
 
 

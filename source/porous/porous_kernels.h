@@ -432,10 +432,14 @@ namespace kedge
               step.scheme.end_rate_change(r.content_increment, rate, change, step.dt);
           }
         std::copy_n(r.darcy_velocity, dim, update.darcy_velocity);
-        update.darcy_dissipation  = trial.volume * step.dt * r.darcy_power;
-        update.flow_work          = trial.volume * step.dt * r.flow_work_rate;
-        update.known_inflow       = trial.volume * step.dt * trial.known_rate;
-        update.stabilisation_work = r.fluid_fluctuation * trial.fluctuation;
+        update.darcy_dissipation = trial.volume * step.dt * r.darcy_power;
+        update.flow_work         = trial.volume * step.dt * r.flow_work_rate;
+        update.known_inflow      = trial.volume * step.dt * trial.known_rate;
+        // what flows at n + 1 alone, if rates are carried, flows on between the means of two steps
+        update.stabilisation_work =
+          r.fluid_fluctuation * (step.scheme.carries_rates
+                                   ? 0.5 * (trial.fluctuation_n + trial.fluctuation)
+                                   : trial.fluctuation);
       }
 
       template <unsigned int pattern>

@@ -5,8 +5,8 @@ namespace kedge
 {
   namespace
   {
-    /** Raises the scaled diagonal of a singular tangent; Newton's residual stays exact. */
-    constexpr double singular_shift = 1e-10;
+    /** A tangent worse than this may be why Newton's method fails. */
+    constexpr double suspicious_condition = 1e12;
   } // namespace
 
 
@@ -15,60 +15,23 @@ namespace kedge
   PorousProblem<dim>::PorousProblem(const PorousForce<dim>         &force,
                                     const ExternalLoads<dim>       &loads,
                                     const SurfacePressures<dim>    &surfaces,
-                                    const double                    surface_penalty,
+                                    const SurfaceFluxes<dim>       &fluxes,
+                                    const PorousParameters         &pore_fluid,
                                     const Scheme                   &scheme,
                                     const LinearSolverParameters   &parameters,
                                     const std::vector<double>      &p_wave_modulus_of_body,
                                     const std::vector<std::string> &body_names)
-    : porous_force(force)
+    : Balance<dim>(dim + 1, suspicious_condition, parameters, {dim, false, false, true}, body_names)
+    , porous_force(force)
     , loads(loads)
     , surfaces(surfaces)
-    , surface_penalty(surface_penalty)
+    , fluxes(fluxes)
+    , surface_penalty(pore_fluid.surface_penalty)
     , scheme(scheme)
     , modulus_of_body(p_wave_modulus_of_body)
     , modulus(*std::max_element(modulus_of_body.begin(), modulus_of_body.end()))
-    , body_names(body_names)
-    , linear_solver(parameters, {dim, false, false, true})
+    , pressure_mapping(pore_fluid.pressure_map)
   {}
-
-
-
-  template <int dim>
-  void
-  PorousProblem<dim>::reinit(const BackgroundGrid<dim> &grid,
-                             const ActiveNodes<dim>    &nodes,
-                             const NodeConditions<dim> &conditions,
-                             const NodeTies<dim>       &ties,
-                             const StepPoints<dim>     &points,
-                             const NodeMatrix<dim> &,
-                             const NodeMatrix<dim> *,
-                             const int  stiffness_radius,
-                             const bool new_pattern)
-  {
-    this->grid       = &grid;
-    this->nodes      = &nodes;
-    this->conditions = &conditions;
-    this->ties       = &ties;
-    this->points     = &points;
-    cell_size        = grid.lattice().smallest_cell_size();
-    if (!new_pattern)
-      return;
-    constexpr int n = dim + 1;
-    tangent.reinit(nodes.n_local(), n, stiffness_radius);
-    status.resize(std::size_t(nodes.n_local()) * n);
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      for (int c = 0; c < n; ++c)
-        {
-          const bool prescribed =
-            c < dim ? conditions.prescribed(i, c) : conditions.pressure_prescribed(i);
-          status[std::size_t(i) * n + c] = ties.is_tied(i, c) ? NodalStatus::tied
-                                           : prescribed       ? NodalStatus::prescribed
-                                                              : NodalStatus::free;
-        }
-    equations.reinit(grid, nodes, ties, status, tangent);
-    linear_solver.pattern_changed();
-    blocks_have_pattern = false;
-  }
 
 
 
@@ -85,56 +48,36 @@ namespace kedge
   void
   PorousProblem<dim>::start(NodalState &state, const double t_n, const double dt)
   {
-    this->state = &state;
-    this->t_n   = t_n;
-    this->dt    = dt;
-    warning_.clear();
-    condition          = 0.;
-    weakest_equation   = -1;
-    linear_tolerance   = 0.;
+    this->begin_step(state, t_n, dt);
+    weights[dim]       = modulus / grid->lattice().smallest_cell_size();
     blocks_have_values = false;
     unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
     residual.resize(unknowns.size());
     outflow.resize(surfaces.pressures(t_n).size());
     acceleration.resize(scheme.dynamic ? std::size_t(nodes->n_local()) * dim : 0);
-    guess_pressure();
+    pressure_mapping
+      .map(*points, grid->window(), *nodes, *ties, pores.pressure, tangent.radius(), unknowns);
+    set_supply();
     set_prescribed();
+    if (ghosts != nullptr && ghosts->has_storage)
+      project_pressure();
   }
 
 
 
-  /** The points' pressures, averaged over their volumes (4.181); only Newton starts from it. */
   template <int dim>
   void
-  PorousProblem<dim>::guess_pressure()
+  PorousProblem<dim>::set_supply()
   {
-    std::vector<double> at_points(2 * std::size_t(points->size()));
-    for (unsigned int slot = 0; slot < points->size(); ++slot)
-      {
-        const double volume                  = points->volume[slot] * points->determinant[slot];
-        at_points[2 * std::size_t(slot)]     = volume;
-        at_points[2 * std::size_t(slot) + 1] = volume * pores.pressure[slot];
-      }
-    std::vector<double> sums(2 * std::size_t(nodes->n_local()), 0.);
-    add_scalars_to_nodes(*points, grid->window(), *nodes, at_points, 2, sums);
-    bool is_coarse = false;
-    for (const auto &tie : ties->ties())
-      if (tie.interpolates)
-        {
-          is_coarse = true;
-          for (unsigned int k = 0; k < tie.roots.size(); ++k)
-            for (unsigned int c = 0; c < 2; ++c)
-              sums[2 * std::size_t(tie.roots[k]) + c] +=
-                tie.weights[k] * sums[2 * std::size_t(tie.node) + c];
-        }
-    nodes->add_to_owners(sums, 2);
-    nodes->update_ghosts(sums, 2);
-    for (unsigned int i = 0; i < nodes->n_local(); ++i)
-      unknowns[std::size_t(i) * (dim + 1) + dim] =
-        sums[2 * i] > 0. ? sums[2 * i + 1] / sums[2 * i] : 0.;
-    if (is_coarse)
-      ties->prolong(unknowns, dim + 1);
+    supply.assign(fluxes.empty() ? 0 : unknowns.size(), 0.);
+    if (fluxes.empty())
+      return;
+    const double t = t_n + porous_force.scheme().theta * dt;
+    fluxes.add_supply(*points, grid->window(), *nodes, t, dt, supply);
+    ties->restrict_sums(supply, dim + 1);
+    nodes->add_to_owners(supply, dim + 1);
   }
+
 
 
   template <int dim>
@@ -181,7 +124,7 @@ namespace kedge
             accelerations,
             inertia,
             step,
-            cell_size,
+            grid->lattice().smallest_cell_size(),
             loads.body_acceleration(t_load),
             surfaces.points(),
             surfaces.pressures(t_pressure),
@@ -203,16 +146,6 @@ namespace kedge
 
 
 
-  /** Of an equation, in Newton's norm of residuals; its inverse weighs corrections. */
-  template <int dim>
-  double
-  PorousProblem<dim>::weight(const unsigned int nodal_index) const
-  {
-    return nodal_index % (dim + 1) == dim ? modulus / cell_size : 1.;
-  }
-
-
-
   template <int dim>
   NewtonProblem::Evaluation
   PorousProblem<dim>::evaluate()
@@ -229,6 +162,8 @@ namespace kedge
     const PointStatus answer =
       porous_force
         .add_residual(*points, pores, grid->window(), *nodes, trial(), residual, outflow, size);
+    if (ghosts != nullptr)
+      add_ghosts(size);
     ties->restrict_sums(residual, dim + 1);
     nodes->add_to_owners(residual, dim + 1);
     double external = 0.;
@@ -240,24 +175,23 @@ namespace kedge
           external += f * f;
         }
 
+    for (std::size_t k = dim; k < supply.size() && k < std::size_t(nodes->n_owned()) * (dim + 1);
+         k += dim + 1)
+      {
+        residual[k] -= supply[k];
+        external += std::pow(weights[dim] * supply[k], 2);
+      }
+
     double sums[5] = {0., size.momentum, size.fluid, external, answer.ok() ? 0. : 1.};
     for (unsigned int e = 0; e < equations.system().n_rows(); ++e)
       {
         const unsigned int k = equations.nodal_index(e);
-        sums[0] += std::pow(weight(k) * residual[k], 2);
+        sums[0] += std::pow(weights[k % (dim + 1)] * residual[k], 2);
       }
     MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, nodes->communicator());
 
-    NewtonProblem::Evaluation result;
-    result.residual_norm = std::sqrt(sums[0]);
-    result.scale =
-      std::sqrt(sums[1]) + modulus / cell_size * std::sqrt(sums[2]) + std::sqrt(sums[3]);
-    result.ok = sums[4] == 0. && std::isfinite(sums[0]);
-    if (sums[4] > 0.)
-      result.cause = answer.ok() ? "a material point of another rank cannot follow the trial step"
-                                 : describe_point(answer.failed_slot);
-    else if (!result.ok)
-      result.cause = "the residual is not finite";
+    NewtonProblem::Evaluation result = this->conclude(sums[0], sums[4], answer);
+    result.scale = std::sqrt(sums[1]) + weights[dim] * std::sqrt(sums[2]) + std::sqrt(sums[3]);
     return result;
   }
 
@@ -270,6 +204,8 @@ namespace kedge
     const Stopwatch stopwatch(timings_.tangent);
     tangent.set_zero();
     porous_force.add_tangent(*points, pores, grid->window(), *nodes, trial(), tangent);
+    if (ghosts != nullptr)
+      add_ghosts_to_tangent();
     equations.fill(*nodes, tangent);
     if (linear_solver.choose(equations.system()) == LinearSolverKind::krylov_blocks)
       assemble_blocks();
@@ -302,85 +238,12 @@ namespace kedge
 
 
   template <int dim>
-  LinearStatus
-  PorousProblem<dim>::solve_correction(double &norm, const bool keep_tangent)
-  {
-    if (!keep_tangent)
-      assemble_tangent();
-
-    const Stopwatch     stopwatch(timings_.linear_solve);
-    std::vector<double> right_side, solution;
-    equations.gather(residual, right_side);
-    for (double &value : right_side)
-      value = -value;
-    LinearStatus answer;
-    if (!keep_tangent)
-      answer = linear_solver.factorise(equations.system());
-    if (!answer.success && answer.equation >= 0)
-      {
-        // barely held nodes: what nothing determines stays where it is
-        warning_ = answer.cause + describe_equation(answer.equation);
-        answer   = linear_solver.factorise(equations.system(), singular_shift);
-      }
-    else if (!keep_tangent && answer.condition_estimate > condition)
-      {
-        condition          = answer.condition_estimate;
-        weakest_equation   = answer.weakest_equation;
-        largest_condition_ = std::max(largest_condition_, condition);
-      }
-    if (answer.success)
-      answer = linear_solver.solve(right_side, solution, linear_tolerance);
-    if (!answer.success)
-      return answer;
-    equations.scatter(solution, correction);
-    nodes->update_ghosts(correction, dim + 1);
-    ties->prolong(correction, dim + 1);
-    double square = 0.;
-    for (unsigned int e = 0; e < solution.size(); ++e)
-      square += std::pow(solution[e] / weight(equations.nodal_index(e)), 2);
-    norm = std::sqrt(dealii::Utilities::MPI::sum(square, nodes->communicator()));
-    return answer;
-  }
-
-
-
-  template <int dim>
   void
   PorousProblem<dim>::apply_correction(const double factor)
   {
     for (std::size_t k = 0; k < correction.size(); ++k)
       unknowns[k] += factor * correction[k];
     copy_displacement();
-  }
-
-
-
-  template <int dim>
-  double
-  PorousProblem<dim>::reaction_work() const
-  {
-    double work = 0.;
-    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
-      for (int d = 0; d < dim; ++d)
-        if (conditions->prescribed(i, d))
-          work += residual[std::size_t(i) * (dim + 1) + d] *
-                  state->displacement[std::size_t(i) * dim + d];
-    return dealii::Utilities::MPI::sum(work, nodes->communicator());
-  }
-
-
-
-  template <int dim>
-  std::vector<double>
-  PorousProblem<dim>::reactions() const
-  {
-    std::vector<double> forces(std::size_t(conditions->size()) * dim, 0.);
-    for (unsigned int i = 0; i < nodes->n_owned(); ++i)
-      for (int d = 0; d < dim; ++d)
-        if (conditions->prescribed(i, d))
-          forces[conditions->condition(i, d) * dim + d] += residual[std::size_t(i) * (dim + 1) + d];
-    dealii::Utilities::MPI::sum(forces, nodes->communicator(), forces);
-    return forces;
   }
 
 
@@ -412,6 +275,9 @@ namespace kedge
           const std::size_t k = std::size_t(i) * (dim + 1) + dim;
           add(fluid.reference_density * residual[k], unknowns[k]);
         }
+    for (std::size_t k = dim; k < supply.size() && k < std::size_t(nodes->n_owned()) * (dim + 1);
+         k += dim + 1)
+      add(fluid.reference_density * supply[k], unknowns[k]);
     const auto pressures = surfaces.pressures(t_n + porous_force.scheme().theta * dt);
     for (unsigned int s = 0; s < outflow.size(); ++s)
       add(-fluid.reference_density * outflow[s], pressures[s]);
@@ -427,7 +293,8 @@ namespace kedge
   {
     unknowns.assign(std::size_t(nodes->n_local()) * (dim + 1), 0.);
     residual.assign(unknowns.size(), 0.);
-    guess_pressure();
+    pressure_mapping
+      .map(*points, grid->window(), *nodes, *ties, pores.pressure, tangent.radius(), unknowns);
     outflow.assign(surfaces.pressures(t).size(), 0.);
     const std::vector<double> at_rest;
     PorousSize                size;

@@ -32,6 +32,8 @@ namespace kedge
                                                     point_loads(),
                                                     tractions(),
                                                     surface_pressures(),
+                                                    surface_fluxes(),
+                                                    equilibrium(),
                                                     time()};
         for (SectionDeclaration &section : declare_numerics<dim>(allow))
           sections.push_back(std::move(section));
@@ -141,6 +143,16 @@ namespace kedge
             per_direction("0", "; "),
             allow.expressions(coordinates("xyz"), coordinate_words("xyz")),
             "Velocity at the start [m/s]; x, y, z is the place at the start."},
+           {"Initial stress",
+            "",
+            allow
+              .expressions(coordinates("xyz"),
+                           coordinate_words("xyz"),
+                           dim == 2 ? std::vector<std::string>{"xx", "yy", "zz", "xy"}
+                                    : std::vector<std::string>{"xx", "yy", "zz", "xy", "xz", "yz"})
+              .or_empty(),
+            "Stress at the start, the effective one of a saturated body [Pa]; x, y, z is the "
+            "place; empty: none."},
            {"Initial pore pressure",
             "0",
             allow.expression(coordinates("xyz"), coordinate_words("xyz")),
@@ -246,6 +258,46 @@ namespace kedge
                   allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
                   "Only faces where this is true at the start; empty: all; 0: none."},
                  {"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."}}};
+      }
+
+      SectionDeclaration
+      surface_fluxes() const
+      {
+        std::vector<std::string> variables = coordinates("xyz");
+        variables.emplace_back("t");
+        return {"Surface fluxes",
+                "Fluid that enters through the outer faces of a saturated body that look to one "
+                "side; they move with the body.",
+                SectionKind::named,
+                {{"Body",
+                  required,
+                  allow.text("the name of a section of Bodies"),
+                  "The body whose faces they are."},
+                 {"Side", required, allow.side(), "The side to which the faces look at the start."},
+                 {"Where",
+                  "",
+                  allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
+                  "Only faces where this is true at the start; empty: all; 0: none."},
+                 {"Flux",
+                  required,
+                  allow.expression(variables, coordinate_words("xyz") + ", t"),
+                  "Volume, as at pressure 0, per area of the face as it is and time, positive "
+                  "inwards [m/s]; x, y, z is its present place."}}};
+      }
+
+      SectionDeclaration
+      equilibrium() const
+      {
+        return {"Equilibrium",
+                "A quasi-static stage before time starts: loads as they are at Time/Start grow "
+                "from zero, or act in full on bodies with an Initial stress. Then the points "
+                "stand where they came to, with their stress, at rest and without displacement.",
+                SectionKind::plain,
+                {{"Steps", "0", allow.whole_number(0), "Of the stage [-]; 0: there is none."},
+                 {"Duration",
+                  "1",
+                  allow.number(Range::positive()),
+                  "For saturated bodies: how long the fluid flows in it [s]."}}};
       }
 
       SectionDeclaration

@@ -60,6 +60,11 @@ namespace kedge
           "0",
           allow.number(fraction),
           "Mass matrix from 0, consistent, to 1, lumped [-]."},
+         {"Pressure",
+          "consistent",
+          allow.one_of({"consistent", "lumped"}),
+          "Of saturated bodies: the volume matrix that takes pore pressures from points to nodes, "
+          "from where Newton's method starts; consistent is exact for linear pressures."},
          {"Audit",
           "false",
           allow.truth(),
@@ -91,7 +96,17 @@ namespace kedge
                {"Ghost stiffness factor",
                 "1e-6",
                 allow.number(NumberRange::not_negative()),
-                "ghost: of the stiffness penalty, over Young's modulus [-]."}}};
+                "ghost: of the stiffness penalty, over Young's modulus [-]."},
+               {"Ghost conductivity factor",
+                "",
+                allow.number(NumberRange::not_negative()).or_empty(),
+                "ghost, in saturated bodies: of the penalty of pressures, over the conductivity "
+                "[-]; empty: 1e-3."},
+               {"Ghost storage factor",
+                "",
+                allow.number(NumberRange::not_negative()).or_empty(),
+                "ghost, in saturated bodies: of the penalty of changes of pressure, over the "
+                "fluid's compressibility 1/K_f [-]; empty: 1e-3."}}};
     }
   } // namespace
 

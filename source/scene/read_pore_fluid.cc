@@ -15,9 +15,16 @@ namespace kedge
         if (!condition.pore_pressure.empty())
           throw SectionReader(reader, {"Node conditions", condition.name})
             .error("Pore pressure", "The bodies are dry: give Pore fluid/Density.");
+      const SectionReader stabilisation(reader, {"Stabilisation"});
+      for (const char *factor : {"Ghost conductivity factor", "Ghost storage factor"})
+        if (!stabilisation.is_empty(factor))
+          throw stabilisation.error(factor, "The bodies are dry: give Pore fluid/Density.");
       for (const std::string &name : reader.names("Surface pressures"))
         throw SectionReader(reader, {"Surface pressures", name})
           .error("Pressure", "The bodies are dry: give Pore fluid/Density.");
+      for (const std::string &name : reader.names("Surface fluxes"))
+        throw SectionReader(reader, {"Surface fluxes", name})
+          .error("Flux", "The bodies are dry: give Pore fluid/Density.");
     }
 
     /** Refuses what the u-p balance does not have. */
@@ -47,9 +54,6 @@ namespace kedge
         if (material.volume_change != VolumeChange::pointwise)
           throw SectionReader(reader, {"Materials", material.name})
             .error("Volume change", "In saturated bodies (Pore fluid) it must be pointwise.");
-      if (scene.stabilisation.method == StabilisationKind::ghost)
-        throw SectionReader(reader, {"Stabilisation"})
-          .error("Method", "Saturated bodies (Pore fluid) go with aggregation and none.");
       if (scene.transfer.lumping > 0.)
         throw SectionReader(reader, {"Mapping"})
           .error("Lumping", "In saturated bodies (Pore fluid) the mass matrix must be consistent.");
@@ -95,6 +99,9 @@ namespace kedge
     if (!result.coarse_pressure && scene.bodies[0].basis == BasisKind::quadratic)
       throw section.error("Pressure space",
                           "With the quadratic basis of the bodies it must be coarse.");
+    result.pressure_map    = SectionReader(reader, {"Mapping"}).text("Pressure") == "lumped"
+                               ? PressureMap::lumped
+                               : PressureMap::consistent;
     result.surface_penalty = section.number("Surface penalty");
     return result;
   }
@@ -102,29 +109,34 @@ namespace kedge
 
 
   template <int dim>
-  std::vector<SurfacePressureParameters>
-  read_surface_pressures(const ParameterReader &reader)
+  void
+  read_surfaces(const ParameterReader &reader, Scene<dim> &scene)
   {
-    std::vector<SurfacePressureParameters> result;
+    const auto place = [&](const SectionReader &section) {
+      find_name(reader, section, "Body", "Bodies");
+      return SurfaceParameters{section.name(),
+                               section.text("Body"),
+                               parse_side<dim>(section.text("Side")),
+                               section.text("Where")};
+    };
     for (const std::string &name : reader.names("Surface pressures"))
       {
         const SectionReader section(reader, {"Surface pressures", name});
-        find_name(reader, section, "Body", "Bodies");
-        result.push_back({name,
-                          section.text("Body"),
-                          parse_side<dim>(section.text("Side")),
-                          section.text("Where"),
-                          section.text("Pressure")});
+        scene.surface_pressures.push_back({place(section), section.text("Pressure")});
       }
-    return result;
+    for (const std::string &name : reader.names("Surface fluxes"))
+      {
+        const SectionReader section(reader, {"Surface fluxes", name});
+        scene.surface_fluxes.push_back({place(section), section.text("Flux")});
+      }
   }
 
 
 
-  template std::vector<SurfacePressureParameters>
-  read_surface_pressures<2>(const ParameterReader &);
-  template std::vector<SurfacePressureParameters>
-  read_surface_pressures<3>(const ParameterReader &);
+  template void
+  read_surfaces<2>(const ParameterReader &, Scene<2> &);
+  template void
+  read_surfaces<3>(const ParameterReader &, Scene<3> &);
   template std::optional<PorousParameters>
   read_pore_fluid<2>(const ParameterReader &, const Scene<2> &);
   template std::optional<PorousParameters>

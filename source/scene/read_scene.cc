@@ -128,6 +128,7 @@ namespace kedge
           throw section.error("Basis", "If a body is quadratic, all of them must be.");
         body.initial_velocity      = components<dim>(section, "Initial velocity");
         body.body_force            = section.truth("Body force");
+        body.initial_stress        = section.list("Initial stress");
         body.initial_pore_pressure = section.text("Initial pore pressure");
         check_inside_grid(section, *body.geometry, grid);
         bodies.push_back(body);
@@ -315,6 +316,10 @@ namespace kedge
       stabilisation.smallest_filling       = section.number("Smallest filling");
       stabilisation.ghost_mass_factor      = section.number("Ghost mass factor");
       stabilisation.ghost_stiffness_factor = section.number("Ghost stiffness factor");
+      if (!section.is_empty("Ghost conductivity factor"))
+        stabilisation.ghost_conductivity_factor = section.number("Ghost conductivity factor");
+      if (!section.is_empty("Ghost storage factor"))
+        stabilisation.ghost_storage_factor = section.number("Ghost storage factor");
       return stabilisation;
     }
 
@@ -366,6 +371,20 @@ namespace kedge
         probes.push_back(probe);
       });
       return probes;
+    }
+
+    /** Refuses initial stresses where a mean strain of a cell would not know of them. */
+    template <int dim>
+    void
+    check_initial_stress(const ParameterReader &reader, const Scene<dim> &scene)
+    {
+      for (const BodyParameters<dim> &body : scene.bodies)
+        if (!body.initial_stress.empty() &&
+            scene.materials[body.material].volume_change == VolumeChange::cell_mean)
+          throw SectionReader(reader, {"Bodies", body.name})
+            .error("Initial stress",
+                   "The volume change of material '" + scene.materials[body.material].name +
+                     "' must be pointwise.");
     }
 
     /** Gives the grid the nodes in the middles of its edges, if a basis wants them. */
@@ -439,6 +458,8 @@ namespace kedge
     scene.point_loads     = read_point_loads<dim>(reader);
     scene.tractions       = read_tractions<dim>(reader);
     scene.time            = read_time(reader);
+    scene.equilibrium     = {SectionReader(reader, {"Equilibrium"}).whole_number("Steps"),
+                             SectionReader(reader, {"Equilibrium"}).number("Duration")};
     scene.newton          = read_newton(reader);
     scene.linear_solver   = read_linear_solver(reader);
     scene.transfer        = read_mapping(reader);
@@ -449,10 +470,11 @@ namespace kedge
         .error("Method",
                "The blocks are displacements and pore pressures; there is no Pore fluid.");
     set_elements(reader, scene);
-    scene.output            = read_output(reader, scene.time);
-    scene.probes            = read_probes<dim>(reader);
-    scene.checks            = read_checks(reader, scene.time);
-    scene.surface_pressures = read_surface_pressures<dim>(reader);
+    check_initial_stress(reader, scene);
+    scene.output = read_output(reader, scene.time);
+    scene.probes = read_probes<dim>(reader);
+    scene.checks = read_checks(reader, scene.time);
+    read_surfaces(reader, scene);
     if (scene.pore_fluid)
       scene.time.pore_theta = SectionReader(reader, {"Pore fluid"}).number("Theta");
     scene.parameters = reader.print();

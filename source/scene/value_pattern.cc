@@ -161,6 +161,23 @@ namespace kedge
 
   template <int dim>
   ValuePattern
+  ValuePatterns<dim>::expressions(const std::vector<std::string> &variables,
+                                  const std::string              &words,
+                                  const std::vector<std::string> &components) const
+  {
+    std::string names;
+    for (const std::string &name : components)
+      names += (names.empty() ? "" : "; ") + name;
+    return ValuePattern("expressions of " + words + " for " + names,
+                        [=, c = constants](const auto &text) {
+                          parse_expressions(text, components.size(), variables, *c);
+                        });
+  }
+
+
+
+  template <int dim>
+  ValuePattern
   ValuePatterns<dim>::one_of(const std::vector<std::string> &choices) const
   {
     std::string allowed;

@@ -1,3 +1,4 @@
+#include <kedge/simulation/equilibrium.h>
 #include <kedge/simulation/simulation.h>
 
 #include <kedge/io/checks.h>
@@ -69,13 +70,16 @@ namespace kedge
     if (engine.audits_transfer())
       audit_writer = std::make_unique<AuditWriter<dim>>(folder);
 
+    if (scene.equilibrium.steps > 0)
+      engine.replace_points(points_in_equilibrium(scene, communicator));
     engine.initialise_points(clock.time());
     engine.write_books(row);
-    row.time                = clock.time();
-    row.time_step           = 0.;
-    row.wall_time           = wall_time();
-    totals.initial_energy   = row.total_energy();
-    totals.next_output_time = clock.time();
+    row.time                  = clock.time();
+    row.time_step             = 0.;
+    row.wall_time             = wall_time();
+    totals.initial_energy     = row.total_energy();
+    totals.initial_fluid_mass = row.fluid_mass;
+    totals.next_output_time   = clock.time();
     history->write(row);
     folder.log() << "kedge: " << (scene.title.empty() ? scene.name : scene.title) << "\n  "
                  << row.n_points << " material points in " << row.n_active_cells << " cells, "
@@ -195,6 +199,7 @@ namespace kedge
     engine.write_books(row);
     row.energy_error = row.total_energy() + row.plastic_dissipation + row.darcy_dissipation +
                        row.stabilisation_energy - totals.initial_energy - row.external_work;
+    row.fluid_error         = row.fluid_mass - totals.initial_fluid_mass - row.fluid_inflow;
     row.wall_time           = wall_time();
     totals.rejected_pending = 0;
     totals.points_times_steps += static_cast<double>(row.n_points) * step.newton.iterations;

@@ -189,6 +189,7 @@ namespace kedge
                               {"fluid_inflow", totals.fluid_inflow},
                               {"darcy_dissipation", totals.darcy_dissipation},
                               {"initial_energy", totals.initial_energy},
+                              {"initial_fluid_mass", totals.initial_fluid_mass},
                               {"wall_time", wall_time()},
                               {"points_times_steps", totals.points_times_steps},
                               {"next_output_time", totals.next_output_time}};
@@ -249,6 +250,7 @@ namespace kedge
     totals.fluid_inflow       = data.scalars.at("fluid_inflow");
     totals.darcy_dissipation  = data.scalars.at("darcy_dissipation");
     totals.initial_energy     = data.scalars.at("initial_energy");
+    totals.initial_fluid_mass = data.scalars.at("initial_fluid_mass");
     totals.wall_before        = data.scalars.at("wall_time");
     totals.points_times_steps = data.scalars.at("points_times_steps");
     totals.next_output_time   = data.scalars.at("next_output_time");

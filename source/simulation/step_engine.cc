@@ -110,6 +110,7 @@ namespace kedge
             scene.tractions,
             scene.constants)
     , surfaces(scene.surface_pressures, scene.constants)
+    , fluxes(scene.surface_fluxes, scene.constants)
     , balance(make_balance())
   {
     for (const auto &body : scene.bodies)
@@ -176,13 +177,14 @@ namespace kedge
                     ties,
                     step_points,
                     has_ghosts() ? ghosted_mass : mass,
-                    has_ghosts() ? &ghost_stiffness : nullptr,
+                    has_ghosts() ? &ghost_terms : nullptr,
                     stiffness_radius,
                     new_pattern);
     if (porous != nullptr)
       {
         porous->read_pores(cloud);
         surfaces.reinit(cloud, step_points);
+        fluxes.reinit(cloud, step_points);
       }
   }
 
@@ -193,16 +195,34 @@ namespace kedge
   StepEngine<dim>::assemble_ghosts()
   {
     const StabilisationParameters &factors = scene.stabilisation;
-    if (new_pattern)
-      ghost_stiffness.reinit(nodes.n_local(), 1, stencil_radius);
-    ghost_stiffness.set_zero();
-    ghosts.add_stiffness(background, nodes, factors.ghost_stiffness_factor, ghost_stiffness);
+    const auto                     start   = [&](NodeMatrix<dim> &matrix) -> NodeMatrix<dim>                       &{
+      if (new_pattern)
+        matrix.reinit(nodes.n_local(), 1, stencil_radius);
+      matrix.set_zero();
+      return matrix;
+    };
+    ghosts.add_stiffness(background,
+                         nodes,
+                         factors.ghost_stiffness_factor,
+                         start(ghost_terms.stiffness));
+    if (has_pores())
+      {
+        const PoreFluidParameters &fluid = scene.pore_fluid->fluid;
+        ghosts.add_gradient_penalty(background,
+                                    nodes,
+                                    factors.ghost_conductivity_factor *
+                                      fluid.hydraulic_conductivity /
+                                      (fluid.fluid_density * fluid.reference_gravity),
+                                    start(ghost_terms.conductance));
+        ghosts.add_value_penalty(background,
+                                 nodes,
+                                 factors.ghost_storage_factor / fluid.fluid_bulk_modulus,
+                                 start(ghost_terms.storage));
+        ghost_terms.has_storage = factors.ghost_storage_factor > 0.;
+      }
     if (!scheme.dynamic)
       return;
-    if (new_pattern)
-      ghost_mass.reinit(nodes.n_local(), 1, stencil_radius);
-    ghost_mass.set_zero();
-    ghosts.add_mass(background, nodes, factors.ghost_mass_factor, ghost_mass);
+    ghosts.add_mass(background, nodes, factors.ghost_mass_factor, start(ghost_terms.mass));
     ghosted_mass = mass;
     ghosts.add_mass(background, nodes, factors.ghost_mass_factor, ghosted_mass);
     ghosts_in_mapping = lumped_mass_ratio(nodes, mass) < badly_conditioned_mass;

@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/simulation/step_engine.h>
+#include <kedge/solid/initial_stress.h>
 
 namespace kedge
 {
@@ -40,10 +41,12 @@ namespace kedge
         else
           points.insert(points.end(), of_body.begin(), of_body.end());
       }
+    set_initial_stress(scene.bodies, material_of_body, scene.constants, points);
     if (has_pores())
       saturate(points);
     loads.attach(points, body_names);
     surfaces.attach(points, body_names);
+    fluxes.attach(points, body_names);
 
     generated = std::vector<PointOrigin<dim>>(points.begin(), points.end());
     check_overlaps();
@@ -136,6 +139,17 @@ namespace kedge
 
   template <int dim>
   void
+  StepEngine<dim>::replace_points(const std::vector<PointRecord<dim>> &records)
+  {
+    cover_points(records);
+    cloud.distribute(background, records);
+    activated = false;
+  }
+
+
+
+  template <int dim>
+  void
   StepEngine<dim>::forget_generated_points()
   {
     generated.clear();
@@ -159,9 +173,7 @@ namespace kedge
     });
     if (dealii::Utilities::MPI::logical_or(close || outside, communicator))
       {
-        const auto records = cloud.records();
-        cover_points(records);
-        cloud.distribute(background, records);
+        replace_points(cloud.records());
         return;
       }
     const std::uint64_t missing = cloud.relocate(background);
@@ -239,7 +251,7 @@ namespace kedge
     if (porous != nullptr)
       add_pore_work();
     if (has_ghosts())
-      ghost_work = work_against_ghosts();
+      ghost_work = work_against_ghosts() + (porous != nullptr ? porous->work_against_ghosts() : 0.);
     if (std::any_of(scene.node_conditions.begin(),
                     scene.node_conditions.end(),
                     [](const auto &condition) {
@@ -278,7 +290,7 @@ namespace kedge
     const std::vector<double> &u = nodal.displacement;
     std::vector<double>        product(u.size()), acceleration(u.size()), change(u.size());
     double                     work = 0.;
-    multiply(ghost_stiffness, background.window(), nodes, dim, u, product);
+    multiply(ghost_terms.stiffness, background.window(), nodes, dim, u, product);
     for (std::size_t i = 0; i < u.size(); ++i)
       work += scheme.alpha_f * u[i] * product[i];
     if (scheme.dynamic)
@@ -289,10 +301,10 @@ namespace kedge
             acceleration[i] = scheme.equilibrium_acceleration(u[i], v_n, a_n, step_dt);
             change[i]       = scheme.end_velocity(u[i], v_n, a_n, step_dt) - v_n;
           }
-        multiply(ghost_mass, background.window(), nodes, dim, acceleration, product);
+        multiply(ghost_terms.mass, background.window(), nodes, dim, acceleration, product);
         for (std::size_t i = 0; i < u.size(); ++i)
           work += u[i] * product[i];
-        multiply(ghost_mass, background.window(), nodes, dim, change, product);
+        multiply(ghost_terms.mass, background.window(), nodes, dim, change, product);
         for (std::size_t i = 0; i < u.size() && ghosts_in_mapping; ++i)
           work -= nodal.velocity_n[i] * product[i];
       }
@@ -305,7 +317,7 @@ namespace kedge
   void
   StepEngine<dim>::initialise_points(const double t)
   {
-    if (porous != nullptr)
+    if (porous != nullptr && scene.equilibrium.steps == 0) // else the stage has left them
       initialise_fluctuations();
     if (scheme.carries_acceleration)
       initialise_accelerations(t);

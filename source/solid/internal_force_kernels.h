@@ -1,6 +1,8 @@
 #ifndef kedge_solid_internal_force_kernels_h
 #define kedge_solid_internal_force_kernels_h
 
+#include "block_sum.h"
+
 #include <kedge/solid/group_dilatation.h>
 #include <kedge/stress/mean_dilatation.h>
 #include <kedge/transfer/point_packs.h>
@@ -283,77 +285,14 @@ namespace kedge
       const Law               &law;
       NodeMatrix<dim>         &stiffness;
 
-      template <int n>
-      struct Sum
-      {
-        double value[n][dim][dim][n]; ///< [A][p][m][B]
-      };
-
-      /** @p tangent of the point in a lane, times its volume. */
-      template <int n>
-      static void
-      add_point(const unsigned int lane,
-                const double       volume,
-                const Pack (&tangent)[dim][dim][dim][dim],
-                const BasisValues<dim, n> &basis,
-                Sum<n>                    &sum)
-      {
-        double factor[dim][dim][dim][n]; // [p][m][S][A]
-        for (int p = 0; p < dim; ++p)
-          for (int m = 0; m < dim; ++m)
-            for (int S = 0; S < dim; ++S)
-              {
-                double weighted[dim];
-                for (int R = 0; R < dim; ++R)
-                  weighted[R] = volume * tangent[p][R][m][S][lane];
-                for (int A = 0; A < n; ++A)
-                  {
-                    factor[p][m][S][A] = weighted[0] * basis.gradient[0][A];
-                    for (int R = 1; R < dim; ++R)
-                      factor[p][m][S][A] += weighted[R] * basis.gradient[R][A];
-                  }
-              }
-        for (int A = 0; A < n; ++A)
-          for (int p = 0; p < dim; ++p)
-            for (int m = 0; m < dim; ++m)
-              {
-                double *entry = sum.value[A][p][m];
-                for (int B = 0; B < n; ++B)
-                  {
-                    double add = factor[p][m][0][A] * basis.gradient[0][B];
-                    for (int S = 1; S < dim; ++S)
-                      add += factor[p][m][S][A] * basis.gradient[S][B];
-                    entry[B] += add;
-                  }
-              }
-      }
-
-      template <int n>
-      void
-      flush(const std::array<std::array<unsigned int, n>, n> &slots,
-            const std::array<int, n>                         &local,
-            Sum<n>                                           &sum) const
-      {
-        for (int A = 0; A < n; ++A)
-          for (int p = 0; p < dim; ++p)
-            {
-              double *row = stiffness.row(local[A], p);
-              for (int B = 0; B < n; ++B)
-                for (int m = 0; m < dim; ++m)
-                  row[slots[A][B] * dim + m] += sum.value[A][p][m][B];
-            }
-        std::fill_n(&sum.value[0][0][0][0], n * dim * dim * n, 0.);
-      }
-
       template <unsigned int pattern>
       void
       run() const
       {
-        constexpr int               n      = stencil_size<dim>(pattern);
-        const auto                  pairs  = pair_slots<dim, pattern>(stiffness);
+        const auto                  rows   = row_slots<dim, pattern>(stiffness);
         const StepPoints<dim>      &points = context.points;
         LanesOfPoints<dim, pattern> lanes(context);
-        Sum<n>                      sum{};
+        BlockSum<dim, pattern>      sum;
         for (unsigned int begin = context.batch.begin; begin < context.batch.end;)
           {
             const PackOfSlots slots(begin, context.batch.end);
@@ -363,10 +302,19 @@ namespace kedge
             for (unsigned int lane = 0; lane < slots.count; ++lane)
               {
                 const unsigned int slot = slots.slot(lane);
-                add_point<n>(lane, points.volume[slot], stress.tangent, lanes.basis[lane], sum);
-                if (slot + 1 == context.batch.end ||
-                    points.stencil[slot + 1].first_node != points.stencil[slot].first_node)
-                  flush<n>(pairs, lanes.local[lane], sum);
+                const bool         last =
+                  slot + 1 == context.batch.end ||
+                  points.stencil[slot + 1].first_node != points.stencil[slot].first_node;
+                if (last)
+                  sum.add_last_point(lane,
+                                     points.volume[slot],
+                                     stress.tangent,
+                                     lanes.basis[lane],
+                                     rows,
+                                     lanes.local[lane],
+                                     stiffness);
+                else
+                  sum.add_point(lane, points.volume[slot], stress.tangent, lanes.basis[lane]);
               }
           }
       }

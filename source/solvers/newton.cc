@@ -33,6 +33,10 @@ namespace kedge
     /** Corrections that are tried before the residual is asked to fall. */
     constexpr unsigned int free_corrections = 4;
 
+    /** From the third correction on the residual may grow by this factor, or up to the first. */
+    constexpr double       largest_growth     = 10.;
+    constexpr unsigned int bounded_correction = 3;
+
     /** Linear systems are solved to this relative residual at least. */
     constexpr double loosest_linear_tolerance = 1e-3;
 
@@ -49,6 +53,22 @@ namespace kedge
       const auto &norms = report.residual_norms;
       return norms.size() > free_corrections &&
              norms[norms.size() - 1] > 0.5 * norms[norms.size() - 3];
+    }
+
+    /**
+     * What the residual of the next correction may not exceed. A correction that far
+     * overshoots into a law that stiffens without bound, as that of closing pores,
+     * would leave a state from which Newton's method does not come back.
+     */
+    double
+    residual_bound(const NewtonReport &report)
+    {
+      const auto &norms = report.residual_norms;
+      if (stagnates(report))
+        return norms.back();
+      if (norms.size() < bounded_correction)
+        return no_bound;
+      return std::max(norms.front(), largest_growth * norms.back());
     }
 
     /** Relative residual that leaves a linear system no larger than needed for polished books. */
@@ -180,7 +200,7 @@ namespace kedge
                            iteration_text(report.iterations);
             return report;
           }
-        evaluation = advance(problem, stagnates(report) ? evaluation.residual_norm : no_bound);
+        evaluation = advance(problem, residual_bound(report));
         report.residual_norms.push_back(evaluation.residual_norm);
         report.correction_norms.push_back(correction_norm);
         if (!evaluation.ok)

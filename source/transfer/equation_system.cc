@@ -413,9 +413,10 @@ namespace kedge
                 if (place[c] != none)
                   {
                     const std::size_t node   = tied_rows.column(row.first_column + c);
+                    const bool        whole  = n_free[node] == n_components;
                     double           *target = sums + place[c];
                     for (unsigned int m = 0; m < n_components; ++m)
-                      if (number[node * n_components + m] >= 0)
+                      if (whole || number[node * n_components + m] >= 0)
                         *target++ += feed.weight * value[c * n_components + m];
                   }
             sums += fed.row_length;

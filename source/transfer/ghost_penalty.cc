@@ -248,6 +248,43 @@ namespace kedge
 
 
   template <int dim>
+  void
+  GhostPenalty<dim>::add_gradient_penalty(const BackgroundGrid<dim> &grid,
+                                          const ActiveNodes<dim>    &nodes,
+                                          const double               factor,
+                                          NodeMatrix<dim>           &matrix) const
+  {
+    const auto &h = grid.lattice().h;
+    add(
+      grid,
+      nodes,
+      [&](const GhostFace &face) {
+        return factor / (h[face.direction] * h[face.direction]);
+      },
+      matrix);
+  }
+
+
+
+  template <int dim>
+  void
+  GhostPenalty<dim>::add_value_penalty(const BackgroundGrid<dim> &grid,
+                                       const ActiveNodes<dim>    &nodes,
+                                       const double               factor,
+                                       NodeMatrix<dim>           &matrix) const
+  {
+    add(
+      grid,
+      nodes,
+      [&](const GhostFace &) {
+        return factor;
+      },
+      matrix);
+  }
+
+
+
+  template <int dim>
   double
   lumped_mass_ratio(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &mass)
   {

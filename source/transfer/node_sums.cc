@@ -75,7 +75,7 @@ namespace kedge
       {
         constexpr int n       = stencil_size<dim>(pattern);
         const auto    offsets = node_offsets<dim, pattern>(window.node_strides());
-        const auto    slots   = pair_slots<dim, pattern>(mass);
+        const auto    rows    = row_slots<dim, pattern>(mass);
         double        sum[n][n];
         for (unsigned int slot = batch->begin; slot < batch->end;)
           {
@@ -101,11 +101,7 @@ namespace kedge
               }
             const auto local = local_nodes<dim, pattern>(nodes, offsets, first);
             for (int A = 0; A < n; ++A)
-              {
-                double *row = mass.row(local[A], 0);
-                for (int B = 0; B < n; ++B)
-                  row[slots[A][B]] += sum[A][B];
-              }
+              add_to_row<dim, pattern, 1>(rows[A], sum[A], mass.row(local[A], 0));
           }
       }
     };

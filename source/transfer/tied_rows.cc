@@ -120,9 +120,10 @@ namespace kedge
           double       *ac = &product[first_value(row, p)];
           for (unsigned int k = row.first_coupling; k < row.end_coupling; ++k)
             {
-              const Coupling &c = couplings[k];
+              const Coupling &c     = couplings[k];
+              const bool      whole = c.components + 1 == 1u << n_components;
               for (unsigned int m = 0; m < n_components; ++m)
-                if ((c.components >> m) & 1u)
+                if (whole || (c.components >> m) & 1u)
                   ac[c.column * n_components + m] += c.weight * a[c.slot * n_components + m];
             }
         }

@@ -221,3 +221,24 @@ TEST(MaterialsCriticalStateTable, WhatHasNoReturnIsRefused)
   EXPECT_FALSE(CriticalState<ImprovedHencky>(soil()).respond(nothing, closed, {}).valid);
   EXPECT_TRUE(CriticalState<Hencky>(soil()).respond(nothing, closed, {}).valid);
 }
+
+TEST(MaterialsCriticalState, CompressionBeyondTheEndOfTheSurfaceReturns)
+{
+  // A overtakes phi at 1 GPa (n = 0.01) and the yield function is negative again: elastic by
+  // its sign, but no state that soil reaches from within. The surface's own end is where
+  // isotropic compression leaves it, P = 255 to 257 kPa for n from 0.2 to 0.001: by
+  // evaluating |phi|/A = 1 on a fine grid of strains.
+  const CriticalState<ImprovedHencky> law(soil());
+  for (const double n : {0.1, 0.01, 0.001})
+    for (const double strain : {-0.01, -0.1, -0.5, -2.})
+      {
+        MaterialHistory history;
+        history.volume_strain     = std::log((1. - 0.2) / (1. - n));
+        const double trial[3]     = {strain / 3., strain / 3., strain / 3.};
+        const double increment[3] = {0., 0., 0.};
+        const auto   response     = law.respond(trial, increment, history);
+        ASSERT_TRUE(response.valid) << n << ' ' << strain;
+        EXPECT_GT(pressure_of(response.kirchhoff_stress), 2.54e5) << n << ' ' << strain;
+        EXPECT_LT(pressure_of(response.kirchhoff_stress), 2.58e5) << n << ' ' << strain;
+      }
+}

@@ -180,6 +180,13 @@ TEST(SceneRead, ASceneNeedsABody)
   expect_parts(message_of<3>(text + "subsection Bodies\nend\n"), {"beam.prm:17: ", "has no body"});
 }
 
+TEST(SceneRead, GhostFactorsOfPressuresNeedAPoreFluid)
+{
+  for (const char *factor : {"Ghost conductivity factor", "Ghost storage factor"})
+    expect_parts(message_of(full_scene, {std::string("Stabilisation/") + factor + " = 1e-3"}),
+                 {std::string("Stabilisation/") + factor + " = 1e-3", "dry", "Pore fluid/Density"});
+}
+
 TEST(ScenePrintParameters, ShowsEveryEntryWithUnitDefaultAndAllowedValues)
 {
   std::ostringstream out;

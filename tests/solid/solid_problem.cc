@@ -31,9 +31,9 @@ namespace
       mass.reinit(cloud.nodes.n_local(), 1, 2);
       assemble_mass(cloud.step, cloud.window(), cloud.nodes, mass);
       ghosts.add_mass(cloud.grid, cloud.nodes, factor, mass);
-      penalty.reinit(cloud.nodes.n_local(), 1, 2);
-      penalty.set_zero();
-      ghosts.add_stiffness(cloud.grid, cloud.nodes, factor, penalty);
+      terms.stiffness.reinit(cloud.nodes.n_local(), 1, 2);
+      terms.stiffness.set_zero();
+      ghosts.add_stiffness(cloud.grid, cloud.nodes, factor, terms.stiffness);
 
       const Scheme scheme(time);
       problem = std::make_unique<SolidProblem<dim>>(
@@ -50,7 +50,7 @@ namespace
                       cloud.ties,
                       cloud.step,
                       mass,
-                      &penalty,
+                      &terms,
                       2,
                       true);
       state.velocity_n     = cloud.random_nodal(1., 1);
@@ -61,7 +61,8 @@ namespace
     }
 
     Cloud<dim>                         cloud;
-    NodeMatrix<dim>                    mass, penalty;
+    NodeMatrix<dim>                    mass;
+    GhostMatrices<dim>                 terms;
     NodalState                         state;
     std::unique_ptr<SolidProblem<dim>> problem;
   };

@@ -1,4 +1,6 @@
 // A single point of soil along paths of strain, against figures found elsewhere.
+#include "../materials/soils.h"
+
 #include <kedge/stress/single_point.h>
 
 #include <gtest/gtest.h>
@@ -7,20 +9,11 @@ using namespace kedge;
 
 namespace
 {
-  /** K_0 = 30 MPa, G = 28 MPa, as in tables 4.6 and 4.7 (A) of the thesis. */
   Material
-  soil()
+  improved_soil()
   {
-    const double       K = 30e6, G = 28e6;
-    MaterialParameters parameters;
-    parameters.kind                      = MaterialKind::critical_state_improved;
-    parameters.young_modulus             = 9. * K * G / (3. * K + G);
-    parameters.poisson_ratio             = (3. * K - 2. * G) / (2. * (3. * K + G));
-    parameters.initial_porosity          = 0.2;
-    parameters.preconsolidation_pressure = 2.5e5;
-    parameters.critical_state_slope      = 0.964;
-    parameters.surface_alpha             = 0.3;
-    parameters.surface_gamma             = 0.9;
+    MaterialParameters parameters = test::soil();
+    parameters.kind               = MaterialKind::critical_state_improved;
     return make_material(parameters);
   }
 
@@ -50,7 +43,7 @@ namespace
 
 TEST(StressSoilPaths, IsotropicCompression)
 {
-  SinglePoint point(soil());
+  SinglePoint point(improved_soil());
   // to the digits given; F = exp(eps) carries 1e-16 of 1, the strain 1e-12 of its own
   const std::map<int, double> expected = {{10, 154638.8856},
                                           {16, 252098.8534},
@@ -84,7 +77,7 @@ TEST(StressSoilPaths, IsochoricCompressionEndsAtTheCriticalState)
                         {-.001650165123, 50e3, {{400, {113341.2416, 109017.6698}}}}};
   for (const Path &path : paths)
     {
-      SinglePoint point(soil());
+      SinglePoint point(improved_soil());
       strain(point, path.volume_strain / 3., path.volume_strain / 3.);
       EXPECT_NEAR(pressure(point) / path.pressure, 1., 1e-9);
       for (int step = 1; step <= 400; ++step)

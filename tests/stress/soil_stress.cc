@@ -1,6 +1,7 @@
 // The stresses of a step for materials whose answer depends on the total
 // volume strain, whose tangent is unsymmetric, and whose work has another
 // slope than the stress: against differences of themselves.
+#include "../materials/soils.h"
 #include "random_states.h"
 
 #include <kedge/materials/material.h>
@@ -14,22 +15,6 @@ using namespace kedge::test;
 
 namespace
 {
-  /** K_0 = 30 MPa, G = 28 MPa, as in tables 4.6 and 4.7 (A) of the thesis. */
-  MaterialParameters
-  soil()
-  {
-    const double       K = 30e6, G = 28e6;
-    MaterialParameters parameters;
-    parameters.young_modulus             = 9. * K * G / (3. * K + G);
-    parameters.poisson_ratio             = (3. * K - 2. * G) / (2. * (3. * K + G));
-    parameters.initial_porosity          = 0.2;
-    parameters.preconsolidation_pressure = 2.5e5;
-    parameters.critical_state_slope      = 0.964;
-    parameters.surface_alpha             = 0.3;
-    parameters.surface_gamma             = 0.9;
-    return parameters;
-  }
-
   /** A committed state and a step. */
   template <int dim>
   struct Step

@@ -1,4 +1,6 @@
 // Element tests of soil: what is prescribed is there, and the fluid keeps its mass.
+#include "../materials/soils.h"
+
 #include <kedge/stress/soil_test.h>
 
 #include <gtest/gtest.h>
@@ -8,18 +10,10 @@ using namespace kedge;
 namespace
 {
   MaterialParameters
-  soil(const MaterialKind kind)
+  soil_of_kind(const MaterialKind kind)
   {
-    const double       K = 30e6, G = 28e6;
-    MaterialParameters parameters;
-    parameters.kind                      = kind;
-    parameters.young_modulus             = 9. * K * G / (3. * K + G);
-    parameters.poisson_ratio             = (3. * K - 2. * G) / (2. * (3. * K + G));
-    parameters.initial_porosity          = 0.2;
-    parameters.preconsolidation_pressure = 2.5e5;
-    parameters.critical_state_slope      = 0.964;
-    parameters.surface_alpha             = 0.3;
-    parameters.surface_gamma             = 0.9;
+    MaterialParameters parameters = test::soil();
+    parameters.kind               = kind;
     return parameters;
   }
 
@@ -43,7 +37,7 @@ namespace
 
 TEST(StressSoilTest, DrainedItKeepsTheCellPressure)
 {
-  SoilTest test(triaxial(), soil(MaterialKind::critical_state_improved), {});
+  SoilTest test(triaxial(), soil_of_kind(MaterialKind::critical_state_improved), {});
   ASSERT_TRUE(test.consolidate());
   // Newton's method ends at strains of 1e-12 and better: 1e-4 Pa times a little
   EXPECT_NEAR(trace(test.state().cauchy_stress()), -3e5, 1e-4);
@@ -64,7 +58,7 @@ TEST(StressSoilTest, UndrainedItKeepsTheMassOfTheFluid)
   PathParameters path     = triaxial();
   path.undrained          = true;
   path.fluid_bulk_modulus = 2.2e9;
-  SoilTest test(path, soil(MaterialKind::critical_state_improved), {});
+  SoilTest test(path, soil_of_kind(MaterialKind::critical_state_improved), {});
   ASSERT_TRUE(test.consolidate());
   EXPECT_EQ(test.pore_pressure(), 0.);
   const double fluid = volume(test) - 0.8; // per volume, the grains being 0.8
@@ -88,7 +82,7 @@ TEST(StressSoilTest, AStiffFluidTendsToAnIncompressibleOne)
       PathParameters path     = triaxial();
       path.undrained          = true;
       path.fluid_bulk_modulus = K_f;
-      SoilTest test(path, soil(MaterialKind::critical_state_improved), {});
+      SoilTest test(path, soil_of_kind(MaterialKind::critical_state_improved), {});
       ASSERT_TRUE(test.consolidate());
       const double volume_0 = volume(test);
       for (int step = 1; step <= 10; ++step)
@@ -112,7 +106,7 @@ TEST(StressSoilTest, ElasticOedometerFollowsTheClosedForm)
   PathParameters path;
   path.kind    = PathParameters::Kind::control;
   path.control = {{{false, "0"}, {false, "0"}, {false, "-t"}}};
-  SoilTest test(path, soil(MaterialKind::improved_hencky), {});
+  SoilTest test(path, soil_of_kind(MaterialKind::improved_hencky), {});
   ASSERT_TRUE(test.consolidate());
   for (const double eps : {-0.05, -0.1, -0.2})
     {
@@ -129,7 +123,7 @@ TEST(StressSoilTest, AStressItCannotBearIsRefused)
 {
   PathParameters path = triaxial();
   path.control        = {{{true, "-1e5"}, {true, "-1e5"}, {true, "-1e5 - 1e6*t"}}};
-  SoilTest test(path, soil(MaterialKind::critical_state), {});
+  SoilTest test(path, soil_of_kind(MaterialKind::critical_state), {});
   ASSERT_TRUE(test.consolidate());
   const double q = 0.05e6;
   ASSERT_TRUE(test.advance_to(0.05));

@@ -14,8 +14,9 @@
 namespace kedge
 {
   /**
-   * The background grid: a distributed triangulation with the element of the
-   * displacement (vector Q1) on it. The scene's box may be large and empty;
+   * The background grid: a triangulation, on several ranks distributed by
+   * p4est with the element of the displacement (vector Q1) on it, which numbers
+   * the nodes across ranks. The scene's box may be large and empty;
    * the triangulation covers only a window of it around the material points
    * and is built anew, larger, when they come near its border. Whatever lies
    * outside the window costs nothing.
@@ -24,8 +25,7 @@ namespace kedge
   class BackgroundGrid
   {
   public:
-    using CellIterator =
-      typename dealii::parallel::distributed::Triangulation<dim>::active_cell_iterator;
+    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
 
     BackgroundGrid(const GridParameters<dim> &parameters, const MPI_Comm communicator);
 
@@ -67,16 +67,10 @@ namespace kedge
       return window_;
     }
 
-    const dealii::parallel::distributed::Triangulation<dim> &
+    const dealii::Triangulation<dim> &
     triangulation() const
     {
       return *triangulation_;
-    }
-
-    const dealii::DoFHandler<dim> &
-    dof_handler() const
-    {
-      return *dof_handler_;
     }
 
     const dealii::Mapping<dim> &
@@ -113,26 +107,35 @@ namespace kedge
     }
 
   private:
+    bool
+    parallel() const
+    {
+      return dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1;
+    }
     void
     create_triangulation(const std::vector<unsigned int> &weights,
                          const LatticeWindow<dim>        &weighted_cells);
+    void
+    share_out_cells(dealii::parallel::distributed::Triangulation<dim> &cells,
+                    const std::vector<unsigned int>                   &weights,
+                    const LatticeWindow<dim>                          &weighted_cells) const;
     void
     tabulate_cells();
     void
     tabulate_node_owners();
 
-    const Lattice<dim>                                                 lattice_;
-    const MPI_Comm                                                     communicator_;
-    const dealii::MappingCartesian<dim>                                mapping_;
-    LatticeWindow<dim>                                                 window_;
-    unsigned int                                                       n_refinements = 0;
-    unsigned int                                                       generation_   = 0;
-    dealii::FESystem<dim>                                              element;
-    std::vector<CellIterator>                                          cell_iterators;
-    std::vector<unsigned int>                                          cell_owners;
-    std::vector<unsigned int>                                          node_owners;
-    std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> triangulation_;
-    std::unique_ptr<dealii::DoFHandler<dim>>                           dof_handler_;
+    const Lattice<dim>                          lattice_;
+    const MPI_Comm                              communicator_;
+    const dealii::MappingCartesian<dim>         mapping_;
+    LatticeWindow<dim>                          window_;
+    unsigned int                                n_refinements = 0;
+    unsigned int                                generation_   = 0;
+    dealii::FESystem<dim>                       element;
+    std::vector<CellIterator>                   cell_iterators;
+    std::vector<unsigned int>                   cell_owners;
+    std::vector<unsigned int>                   node_owners;
+    std::unique_ptr<dealii::Triangulation<dim>> triangulation_;
+    std::unique_ptr<dealii::DoFHandler<dim>>    dof_handler; ///< on several ranks
   };
 } // namespace kedge
 

@@ -36,11 +36,12 @@ namespace kedge
     double mass                = unset;     ///< [kg]
 
     // saturated soil
-    double solid_mass        = 0; ///< [kg]
-    double fluid_mass        = 0; ///< [kg]
-    double fluid_inflow      = 0; ///< accumulated, through the surface [kg]
-    double fluid_energy      = 0; ///< of the compressed fluid [J]
-    double darcy_dissipation = 0; ///< accumulated [J]
+    double solid_mass        = 0;     ///< [kg]
+    double fluid_mass        = 0;     ///< [kg]
+    double fluid_inflow      = 0;     ///< accumulated, through the surface [kg]
+    double fluid_error       = 0;     ///< fluid_mass less what was there and fluid_inflow [kg]
+    double fluid_energy      = 0;     ///< of the compressed fluid [J]
+    double darcy_dissipation = 0;     ///< accumulated [J]
     double min_porosity      = unset; ///< of all points [-]
 
     std::vector<double> reactions; ///< of supports on the bodies, as HistoryColumns names them [N]

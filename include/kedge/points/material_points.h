@@ -108,6 +108,13 @@ namespace kedge
      */
     void
     move_some(const BackgroundGrid<dim> &grid, const std::size_t most, ActiveCell &cell);
+    /** Takes the points out of a cell that have left it: for this @p rank, or for others. */
+    void
+    take_movers(const BackgroundGrid<dim>     &grid,
+                const ActiveCell              &cell,
+                const unsigned int             rank,
+                std::vector<PointRecord<dim>> &staying,
+                std::vector<PointRecord<dim>> &leaving);
     void
     insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
 

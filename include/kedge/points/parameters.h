@@ -28,6 +28,7 @@ namespace kedge
     BasisKind                      basis = BasisKind::gimp;
     std::array<std::string, dim>   initial_velocity; ///< expressions of x, y, z [m/s]
     bool                           body_force = true;
+    std::vector<std::string>       initial_stress; ///< of x, y, z: xx; yy; zz; xy.. [Pa]; or none
     std::string initial_pore_pressure = "0"; ///< expression of x, y, z [Pa]; of saturated bodies
   };
 } // namespace kedge

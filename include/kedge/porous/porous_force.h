@@ -109,6 +109,16 @@ namespace kedge
     }
 
   private:
+    /** Calls run(PorousBatch) for all batches until it returns false. */
+    template <class Run>
+    void
+    for_batches(const StepPoints<dim>    &points,
+                const PorePoints<dim>    &pores,
+                const LatticeWindow<dim> &window,
+                const ActiveNodes<dim>   &nodes,
+                const PorousTrial<dim>   &trial,
+                const Run                &run) const;
+
     std::vector<Material> material_of_body;
     std::vector<Soil>     soil_of_body;
     double                alpha;

@@ -3,10 +3,11 @@
 
 #include <kedge/porous/porous_force.h>
 #include <kedge/porous/pressure_blocks.h>
+#include <kedge/porous/pressure_mapping.h>
+#include <kedge/porous/surface_fluxes.h>
 #include <kedge/solid/balance.h>
 #include <kedge/solid/external_loads.h>
 #include <kedge/time_integration/scheme.h>
-#include <kedge/transfer/equation_system.h>
 
 namespace kedge
 {
@@ -26,6 +27,9 @@ namespace kedge
    * with all inertia and body force taken point by point (PorousForce), so that
    * M follows the fluid that flows in and out.
    *
+   * With ghost stabilisation (4.174), (4.178) also, on the nodes of partly filled cells,
+   *   alpha_f K_G u + M_G a   and   dt K_G^(f)/rho_0 p + M_G^(f)/rho_0 (p_{n+1} - p_n).
+   *
    * Newton's norms weigh volumes of fluid by M/h (M the skeleton's P-wave
    * modulus, h a cell) and pressures by h/M: a strain counts as much in one
    * equation as in the other, so that neither hides the other.
@@ -37,23 +41,12 @@ namespace kedge
     PorousProblem(const PorousForce<dim>         &force,
                   const ExternalLoads<dim>       &loads,
                   const SurfacePressures<dim>    &surfaces,
-                  const double                    surface_penalty,
+                  const SurfaceFluxes<dim>       &fluxes,
+                  const PorousParameters         &pore_fluid,
                   const Scheme                   &scheme,
                   const LinearSolverParameters   &parameters,
                   const std::vector<double>      &p_wave_modulus_of_body,
                   const std::vector<std::string> &body_names);
-
-    /** Mass and ghost stiffness are not used: the points carry the mixture's mass. */
-    void
-    reinit(const BackgroundGrid<dim> &grid,
-           const ActiveNodes<dim>    &nodes,
-           const NodeConditions<dim> &conditions,
-           const NodeTies<dim>       &ties,
-           const StepPoints<dim>     &points,
-           const NodeMatrix<dim>     &mass,
-           const NodeMatrix<dim>     *ghost_stiffness,
-           const int                  stiffness_radius,
-           const bool                 new_pattern) override;
 
     /** Reads the pores of the points that reinit() got. */
     void
@@ -66,53 +59,15 @@ namespace kedge
     evaluate() override;
 
     void
-    set_linear_tolerance(const double tolerance) override
-    {
-      linear_tolerance = tolerance;
-    }
-
-    LinearStatus
-    solve_correction(double &norm, const bool keep_tangent) override;
-
-    void
     apply_correction(const double factor) override;
-
-    double
-    reaction_work() const override;
-
-    std::vector<double>
-    reactions() const override;
-
-    std::string
-    diagnosis() const override;
-
-    double
-    largest_condition() const override
-    {
-      return largest_condition_;
-    }
-
-    std::uint64_t
-    n_equations() const override
-    {
-      return equations.system().n_global;
-    }
-
-    std::string
-    linear_method() const override
-    {
-      return linear_solver.method();
-    }
-
-    const SolidTimings &
-    timings() const override
-    {
-      return timings_;
-    }
 
     /** The pores of all points at the end of the step, after convergence. */
     void
     evaluate_updates(std::vector<PoreUpdate<dim>> &updates) const;
+
+    /** Work done against the ghost terms of the pressure in this step [J] (collective). */
+    double
+    work_against_ghosts() const;
 
     /** Through prescribed pressures in this step, after convergence (collective). */
     FluidInflow
@@ -131,9 +86,45 @@ namespace kedge
       return porous_force;
     }
 
-  private:
+  protected:
     void
-    guess_pressure();
+    assemble_tangent() override;
+
+    void
+    pattern_changed() override
+    {
+      blocks_have_pattern = false;
+    }
+
+  private:
+    using Balance<dim>::conditions;
+    using Balance<dim>::correction;
+    using Balance<dim>::dt;
+    using Balance<dim>::equations;
+    using Balance<dim>::ghosts;
+    using Balance<dim>::grid;
+    using Balance<dim>::linear_solver;
+    using Balance<dim>::nodes;
+    using Balance<dim>::points;
+    using Balance<dim>::residual;
+    using Balance<dim>::state;
+    using Balance<dim>::status;
+    using Balance<dim>::t_n;
+    using Balance<dim>::tangent;
+    using Balance<dim>::ties;
+    using Balance<dim>::timings_;
+    using Balance<dim>::weights;
+
+    void
+    add_ghosts(PorousSize &size);
+    void
+    add_ghosts_to_tangent();
+    void
+    project_pressure();
+    std::vector<double>
+    ghost_flow() const;
+    void
+    set_supply();
     void
     set_prescribed();
     void
@@ -147,51 +138,26 @@ namespace kedge
              const double               t_load,
              const double               t_pressure) const;
     void
-    assemble_tangent();
-    void
     assemble_blocks();
-    double
-    weight(const unsigned int nodal_index) const;
-    std::string
-    describe_point(const unsigned int slot) const;
-    std::string
-    describe_equation(const std::int64_t equation) const;
 
-    const PorousForce<dim>         porous_force;
-    const ExternalLoads<dim>      &loads;
-    const SurfacePressures<dim>   &surfaces;
-    const double                   surface_penalty;
-    const Scheme                   scheme;
-    const std::vector<double>      modulus_of_body;
-    const double                   modulus; ///< the largest
-    const std::vector<std::string> body_names;
-    LinearSolver                   linear_solver;
+    const PorousForce<dim>       porous_force;
+    const ExternalLoads<dim>    &loads;
+    const SurfacePressures<dim> &surfaces;
+    const SurfaceFluxes<dim>    &fluxes;
+    const double                 surface_penalty;
+    const Scheme                 scheme;
+    const std::vector<double>    modulus_of_body;
+    const double                 modulus; ///< the largest
 
-    const BackgroundGrid<dim> *grid       = nullptr;
-    const ActiveNodes<dim>    *nodes      = nullptr;
-    const NodeConditions<dim> *conditions = nullptr;
-    const NodeTies<dim>       *ties       = nullptr;
-    const StepPoints<dim>     *points     = nullptr;
-    NodalState                *state      = nullptr;
-    PorePoints<dim>            pores;
-    double                     t_n       = 0.;
-    double                     dt        = 0.;
-    double                     cell_size = 0.;
-
-    NodeMatrix<dim>          tangent;
-    EquationSystem<dim>      equations;
-    PressureBlocks<dim>      blocks;
-    bool                     blocks_have_pattern = false, blocks_have_values = false;
-    double                   linear_tolerance = 0.;
-    std::vector<NodalStatus> status;
-    std::vector<double>      unknowns, residual, correction; ///< dim + 1 per node
-    std::vector<double>      acceleration;
-    std::vector<double>      outflow; ///< through surfaces with a pressure [m^3]
-    SolidTimings             timings_;
-    std::string              warning_; ///< of a singular tangent in this step
-    double                   condition          = 0.;
-    double                   largest_condition_ = 0.;
-    std::int64_t             weakest_equation   = -1;
+    PorePoints<dim>      pores;
+    PressureMapping<dim> pressure_mapping;
+    PressureBlocks<dim>  blocks;
+    bool                 blocks_have_pattern = false, blocks_have_values = false;
+    std::vector<double>  unknowns;   ///< dim + 1 per node
+    std::vector<double>  pressure_n; ///< at the nodes, of the points at n; for the ghosts' storage
+    std::vector<double>  acceleration;
+    std::vector<double>  supply;  ///< by fluxes in this step, as residual; empty: none [m^3]
+    std::vector<double>  outflow; ///< through surfaces with a pressure [m^3]
   };
 } // namespace kedge
 

@@ -17,13 +17,13 @@ namespace kedge
   read_pore_fluid(const ParameterReader &reader, const Scene<dim> &scene);
 
   /**
-   * The section Surface pressures.
+   * The sections Surface pressures and Surface fluxes.
    *
    * @throws UserError for a body that is not there
    */
   template <int dim>
-  std::vector<SurfacePressureParameters>
-  read_surface_pressures(const ParameterReader &reader);
+  void
+  read_surfaces(const ParameterReader &reader, Scene<dim> &scene);
 } // namespace kedge
 
 #endif

@@ -32,10 +32,12 @@ namespace kedge
     std::vector<BodyParameters<dim>>          bodies;
     std::optional<PorousParameters>           pore_fluid; ///< saturates all bodies
     std::vector<SurfacePressureParameters>    surface_pressures;
+    std::vector<SurfaceFluxParameters>        surface_fluxes;
     std::array<std::string, dim>              body_force; ///< expressions of t [m/s^2]
     std::vector<PointLoadParameters<dim>>     point_loads;
     std::vector<TractionParameters<dim>>      tractions;
     TimeParameters                            time;
+    EquilibriumParameters                     equilibrium;
     NewtonParameters                          newton;
     LinearSolverParameters                    linear_solver;
     TransferParameters                        transfer;

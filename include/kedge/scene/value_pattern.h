@@ -77,6 +77,12 @@ namespace kedge
     ValuePattern
     expressions(const std::vector<std::string> &variables, const std::string &words) const;
 
+    /** One expression for each of the @p components. */
+    ValuePattern
+    expressions(const std::vector<std::string> &variables,
+                const std::string              &words,
+                const std::vector<std::string> &components) const;
+
     ValuePattern
     one_of(const std::vector<std::string> &choices) const;
 

@@ -48,6 +48,7 @@ namespace kedge
       double        fluid_inflow       = 0.; ///< [kg]
       double        darcy_dissipation  = 0.; ///< [J]
       double        initial_energy     = 0.;
+      double        initial_fluid_mass = 0.; ///< [kg]
       double        wall_before        = 0.; ///< of the runs that this one resumes [s]
       double        points_times_steps = 0.;
       std::uint64_t newton             = 0;

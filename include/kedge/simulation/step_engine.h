@@ -160,6 +160,10 @@ namespace kedge
       return nodal;
     }
 
+    /** Goes on from other points, each rank's share of them (collective). */
+    void
+    replace_points(const std::vector<PointRecord<dim>> &records);
+
     /** Points, nodes, unknowns of the present configuration (collective). */
     void
     activate();
@@ -292,9 +296,10 @@ namespace kedge
     NodeTies<dim>         ties;
     ExternalLoads<dim>    loads;
     SurfacePressures<dim> surfaces;
+    SurfaceFluxes<dim>    fluxes;
     NodeMatrix<dim>       mass;
     GhostPenalty<dim>     ghosts;
-    NodeMatrix<dim>       ghost_mass, ghost_stiffness;
+    GhostMatrices<dim>    ghost_terms;
     NodeMatrix<dim>       ghosted_mass; ///< mass and ghost mass
     bool                  ghosts_in_mapping = false;
     VelocityMapping<dim>  mapping;

@@ -25,6 +25,13 @@ namespace kedge
     cfl_density  ///< factor times the nodal CFL step (3.195), renewed every step
   };
 
+  /** The quasi-static stage before a run's time starts. */
+  struct EquilibriumParameters
+  {
+    unsigned int steps    = 0; ///< 0: there is none
+    double       duration = 1; ///< what the pores take it for [s]
+  };
+
   struct TimeParameters
   {
     SchemeKind          scheme              = SchemeKind::clc_midpoint;

@@ -88,6 +88,27 @@ namespace kedge
                   const double               factor,
                   NodeMatrix<dim>           &stiffness) const;
 
+    /**
+     * Adds this rank's share of factor/h^2 J_G: for a factor c kappa_0/(rho_0 g) the volume of
+     * fluid that flows for a pressure, K_G^(f) of (4.177) over rho_0 [m^3/(Pa s)]. Different
+     * from the print, which lacks the 1/(g h^2) as (3.152) lacks the 1/h^2.
+     */
+    void
+    add_gradient_penalty(const BackgroundGrid<dim> &grid,
+                         const ActiveNodes<dim>    &nodes,
+                         const double               factor,
+                         NodeMatrix<dim>           &matrix) const;
+
+    /**
+     * Adds this rank's share of factor J_G: for a factor c/K_f the volume of fluid that is
+     * stored for a pressure, M_G^(f) of (4.176) over rho_0 [m^3/Pa].
+     */
+    void
+    add_value_penalty(const BackgroundGrid<dim> &grid,
+                      const ActiveNodes<dim>    &nodes,
+                      const double               factor,
+                      NodeMatrix<dim>           &matrix) const;
+
     /** The faces of this rank; each belongs to one rank. */
     const std::vector<GhostFace> &
     faces() const
@@ -103,6 +124,17 @@ namespace kedge
         NodeMatrix<dim>                                &matrix) const;
 
     std::vector<GhostFace> faces_;
+  };
+
+  /** The ghost terms of a step: matrices with one component and radius 2. */
+  template <int dim>
+  struct GhostMatrices
+  {
+    NodeMatrix<dim> stiffness;           ///< K_G (4.173), on each displacement [N/m]
+    NodeMatrix<dim> mass;                ///< M_G (4.172), on each acceleration; dynamic runs [kg]
+    NodeMatrix<dim> conductance;         ///< K_G^(f)/rho_0 (4.177), saturated bodies [m^3/(Pa s)]
+    NodeMatrix<dim> storage;             ///< M_G^(f)/rho_0 (4.176), saturated bodies [m^3/Pa]
+    bool            has_storage = false; ///< whether its factor is not 0
   };
 
   /** Smallest over largest row sum of a mass matrix [-] (collective). */

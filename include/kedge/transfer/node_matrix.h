@@ -199,6 +199,60 @@ namespace kedge
         }
     return slots;
   }
+
+  /**
+   * Where the nodes of a stencil stand in the row of each of them: [A][run] is the
+   * slot of the first node of each run in x direction. The others of a run follow.
+   */
+  template <int dim, unsigned int pattern>
+  using RowSlots =
+    std::array<std::array<unsigned int, stencil_size<dim>(pattern) / stencil_width(pattern, 0)>,
+               stencil_size<dim>(pattern)>;
+
+  template <int dim, unsigned int pattern>
+  inline RowSlots<dim, pattern>
+  row_slots(const NodeMatrix<dim> &matrix)
+  {
+    constexpr int n = stencil_size<dim>(pattern), run = stencil_width(pattern, 0);
+    const auto    coordinates = [](int A) {
+      LatticeIndex<dim> index;
+      for (int d = 0; d < dim; ++d)
+        {
+          index[d] = A % stencil_width(pattern, d);
+          A /= stencil_width(pattern, d);
+        }
+      return index;
+    };
+    RowSlots<dim, pattern> slots;
+    for (int A = 0; A < n; ++A)
+      for (int r = 0; r < n / run; ++r)
+        {
+          const auto        a = coordinates(A), b = coordinates(r * run);
+          LatticeIndex<dim> offset;
+          for (int d = 0; d < dim; ++d)
+            offset[d] = b[d] - a[d];
+          slots[A][r] = matrix.slot(offset);
+        }
+    return slots;
+  }
+
+  /** Adds @p values, n_components per node of the stencil, to a row; slots from row_slots(). */
+  template <int dim, unsigned int pattern, int n_components = dim>
+  inline void
+  add_to_row(
+    const std::array<unsigned int, stencil_size<dim>(pattern) / stencil_width(pattern, 0)> &slots,
+    const double                                                                           *values,
+    double                                                                                 *row)
+  {
+    constexpr int length = stencil_width(pattern, 0) * n_components;
+    for (const unsigned int slot : slots)
+      {
+        double *target = row + slot * n_components;
+        for (int e = 0; e < length; ++e)
+          target[e] += values[e];
+        values += length;
+      }
+  }
 } // namespace kedge
 
 #endif

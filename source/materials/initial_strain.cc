@@ -1,0 +1,122 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/materials/initial_strain.h>
+
+#include <sstream>
+
+namespace kedge
+{
+  namespace
+  {
+    /** How far beyond the yield surface counts as round-off of a stress on it. */
+    constexpr double surface_tolerance = 1e-9;
+
+    double
+    volume_strain_at(const Hencky &law, const double pressure)
+    {
+      return pressure / law.bulk_modulus;
+    }
+
+    double
+    volume_strain_at(const ImprovedHencky &law, const double pressure)
+    {
+      const double closed = (1. - law.initial_porosity) / law.initial_porosity;
+      const double square = 1. - 2. * closed * pressure / law.bulk_modulus;
+      if (square < 0.)
+        {
+          std::ostringstream message;
+          message << "its mean tension of " << pressure
+                  << " Pa is beyond what the improved Hencky law can bear, "
+                  << 0.5 * law.bulk_modulus / closed << " Pa";
+          throw UserError(message.str());
+        }
+      return 2. * pressure / (law.bulk_modulus * (1. + std::sqrt(square)));
+    }
+
+    /** n_0, which Hencky's law does not ask for. */
+    double
+    porosity(const Hencky &)
+    {
+      return 1.;
+    }
+
+    double
+    porosity(const ImprovedHencky &law)
+    {
+      return law.initial_porosity;
+    }
+
+    const Hencky &
+    elasticity(const Hencky &law)
+    {
+      return law;
+    }
+
+    const ImprovedHencky &
+    elasticity(const ImprovedHencky &law)
+    {
+      return law;
+    }
+
+    const Hencky &
+    elasticity(const VonMises &law)
+    {
+      return law.elastic;
+    }
+
+    template <class Elasticity>
+    const Elasticity &
+    elasticity(const CriticalState<Elasticity> &law)
+    {
+      return law.elastic;
+    }
+
+    /** How far beyond the yield surface, over its size [-]. */
+    template <class Law>
+    double
+    excess(const Law &, const double, const double)
+    {
+      return 0.;
+    }
+
+    double
+    excess(const VonMises &law, const double, const double shear)
+    {
+      const double radius = law.radius(0.);
+      return 2. * law.elastic.shear_modulus * shear / radius - 1.;
+    }
+
+    template <class Elasticity>
+    double
+    excess(const CriticalState<Elasticity> &law, const double volume_strain, const double shear)
+    {
+      const auto surface = law.surface(volume_strain, shear, porosity(law.elastic));
+      return surface.A > 0. && surface.B > 0. ? surface.excess : 1.;
+    }
+  } // namespace
+
+
+
+  std::array<double, 3>
+  initial_elastic_strain(const Material &material, const std::array<double, 3> &stress)
+  {
+    return std::visit(
+      [&](const auto &law) {
+        const auto  &elastic  = elasticity(law);
+        const double pressure = (stress[0] + stress[1] + stress[2]) / 3.;
+        const double volume   = volume_strain_at(elastic, pressure);
+
+        std::array<double, 3> strain;
+        double                square = 0.;
+        for (int i = 0; i < 3; ++i)
+          {
+            const double deviator = 0.5 * (stress[i] - pressure) / elastic.shear_modulus;
+            strain[i]             = deviator + volume / 3.;
+            square += deviator * deviator;
+          }
+        if (excess(law, volume, std::sqrt(square)) > surface_tolerance)
+          throw UserError("it lies beyond the yield surface");
+        return strain;
+      },
+      material);
+  }
+} // namespace kedge

@@ -1,0 +1,84 @@
+#include <kedge/porous/surface_fluxes.h>
+#include <kedge/transfer/step_points.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** The supply of one face to the nodes that its point reaches. */
+    template <int dim>
+    struct SupplyKernel
+    {
+      const StepPoints<dim>    &points;
+      const LatticeWindow<dim> &window;
+      const ActiveNodes<dim>   &nodes;
+      const SurfacePoint<dim>  &face;
+      const double              volume;
+      std::vector<double>      &supply;
+
+      template <unsigned int pattern>
+      void
+      run() const
+      {
+        const auto  offsets = node_offsets<dim, pattern>(window.node_strides());
+        const auto &stencil = points.stencil[face.slot];
+        const auto  basis   = expand<dim, pattern>(stencil);
+        for (int A = 0; A < stencil_size<dim>(pattern); ++A)
+          {
+            double value = basis.value[A];
+            for (int d = 0; d < dim; ++d)
+              value += basis.gradient[d][A] * face.offset[d];
+            const auto node = nodes.local(stencil.first_node + offsets[A]);
+            supply[std::size_t(node) * (dim + 1) + dim] += volume * value;
+          }
+      }
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  SurfaceFluxes<dim>::SurfaceFluxes(const std::vector<SurfaceFluxParameters> &parameters,
+                                    const std::map<std::string, double>      &constants)
+    : SurfaceFaces<dim>("Surface flux", {parameters.begin(), parameters.end()}, constants)
+  {
+    for (const auto &p : parameters)
+      expressions.emplace_back(p.flux, std::vector<std::string>{"x", "y", "z", "t"}, constants);
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceFluxes<dim>::add_supply(const StepPoints<dim>    &points,
+                                 const LatticeWindow<dim> &window,
+                                 const ActiveNodes<dim>   &nodes,
+                                 const double              t,
+                                 const double              dt,
+                                 std::vector<double>      &supply) const
+  {
+    for (const auto &batch : points.batches)
+      for (const SurfacePoint<dim> &face : this->points())
+        {
+          if (face.slot < batch.begin || face.slot >= batch.end)
+            continue;
+          double x[4] = {0, 0, 0, t}, square = 0.;
+          for (int d = 0; d < dim; ++d)
+            {
+              x[d] = points.location[face.slot][d] + face.offset[d];
+              square += face.area[d] * face.area[d];
+            }
+          dispatch_pattern<dim>(batch.pattern,
+                                SupplyKernel<dim>{points,
+                                                  window,
+                                                  nodes,
+                                                  face,
+                                                  expressions[face.surface](x) * std::sqrt(square) *
+                                                    dt,
+                                                  supply});
+        }
+  }
+
+  template class SurfaceFluxes<2>;
+  template class SurfaceFluxes<3>;
+} // namespace kedge

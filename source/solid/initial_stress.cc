@@ -1,0 +1,105 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/materials/initial_strain.h>
+#include <kedge/solid/initial_stress.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Components in the order in which a scene gives them: xx, yy, zz, xy, xz, yz. */
+    constexpr int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
+
+    dealii::SymmetricTensor<2, 3>
+    evaluate(const std::vector<Expression> &stress, const double (&x)[3])
+    {
+      dealii::SymmetricTensor<2, 3> result;
+      for (unsigned int k = 0; k < stress.size(); ++k)
+        result[rows[k]][columns[k]] = stress[k](x);
+      return result;
+    }
+
+    /** Stress, elastic frame and energy of a point in the reference configuration. */
+    template <int dim>
+    void
+    set_state(const Material                      &material,
+              const dealii::SymmetricTensor<2, 3> &stress,
+              PointState<dim>                     &state)
+    {
+      // in plane strain the third axis is one of them
+      dealii::SymmetricTensor<2, dim> in_plane;
+      for (int i = 0; i < dim; ++i)
+        for (int j = i; j < dim; ++j)
+          in_plane[i][j] = stress[i][j];
+      const auto axes =
+        dealii::eigenvectors(in_plane, dealii::SymmetricTensorEigenvectorMethod::jacobi);
+      std::array<double, 3> principal;
+      principal[2] = stress[2][2];
+      for (int k = 0; k < dim; ++k)
+        principal[k] = axes[k].first;
+
+      const std::array<double, 3> strain = initial_elastic_strain(material, principal);
+      for (int k = 0; k < dim; ++k)
+        for (int i = 0; i < dim; ++i)
+          state.elastic_frame[i][k] = std::exp(strain[k]) * axes[k].second[i];
+      state.kirchhoff_stress = in_plane;
+      if (dim == 2)
+        {
+          state.out_of_plane_elastic_stretch  = std::exp(strain[2]);
+          state.out_of_plane_kirchhoff_stress = stress[2][2];
+        }
+      const double values[3] = {strain[0], strain[1], strain[2]};
+      state.strain_energy    = std::visit(
+        [&](const auto &law) {
+          return law.energy(values, MaterialHistory());
+        },
+        material);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  set_initial_stress(const std::vector<BodyParameters<dim>> &bodies,
+                     const std::vector<Material>            &material_of_body,
+                     const std::map<std::string, double>    &constants,
+                     std::vector<GeneratedPoint<dim>>       &points)
+  {
+    std::vector<std::vector<Expression>> stresses(bodies.size());
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (const std::string &text : bodies[b].initial_stress)
+        stresses[b].emplace_back(text, std::vector<std::string>{"x", "y", "z"}, constants);
+    for (auto &point : points)
+      {
+        PointState<dim> &state = point.record.state;
+        const auto       body  = static_cast<unsigned int>(state.body);
+        if (stresses[body].empty())
+          continue;
+        double x[3] = {0, 0, 0};
+        for (int d = 0; d < dim; ++d)
+          x[d] = point.record.location[d];
+        try
+          {
+            set_state(material_of_body[body], evaluate(stresses[body], x), state);
+          }
+        catch (const UserError &error)
+          {
+            std::ostringstream message;
+            message << "Bodies/" << bodies[body].name << "/Initial stress at ("
+                    << point.record.location << "): " << error.what() << '.';
+            throw UserError(message.str());
+          }
+      }
+  }
+
+  template void
+  set_initial_stress(const std::vector<BodyParameters<2>> &,
+                     const std::vector<Material> &,
+                     const std::map<std::string, double> &,
+                     std::vector<GeneratedPoint<2>> &);
+  template void
+  set_initial_stress(const std::vector<BodyParameters<3>> &,
+                     const std::vector<Material> &,
+                     const std::map<std::string, double> &,
+                     std::vector<GeneratedPoint<3>> &);
+} // namespace kedge
