@@ -1,16 +1,16 @@
 #include "distributed_matrix.h"
 
+#include <kedge/base/pack.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace kedge
 {
   namespace
   {
     constexpr int exchange_tag = 4713;
-
-    /** Rows of one node have the same columns: at most three displacements and a pressure. */
-    constexpr unsigned int most_together = 4;
   } // namespace
 
 
@@ -25,8 +25,8 @@ namespace kedge
     int       n_ranks;
     MPI_Comm_size(system.communicator, &n_ranks);
     local_column.clear();
-    neighbours.clear();
-    std::vector<int> foreign;
+    neighbours_.clear();
+    foreign.clear();
     if (n_ranks > 1)
       {
         for (const int column : system.column)
@@ -36,12 +36,8 @@ namespace kedge
         foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
         local_column.reserve(system.column.size());
         for (const int column : system.column)
-          local_column.push_back(
-            column >= low && column < high
-              ? column - low
-              : n + static_cast<int>(std::lower_bound(foreign.begin(), foreign.end(), column) -
-                                     foreign.begin()));
-        plan_exchange(foreign);
+          local_column.push_back(local_number(column));
+        plan_exchange();
       }
     scale.resize(n + foreign.size());
     scaled.resize(n + foreign.size());
@@ -50,8 +46,22 @@ namespace kedge
 
 
 
+  int
+  DistributedMatrix::local_number(const int column) const
+  {
+    const int n = static_cast<int>(n_rows()), low = static_cast<int>(system->first_row);
+    if (column >= low && column < low + n)
+      return column - low;
+    const auto place = std::lower_bound(foreign.begin(), foreign.end(), column);
+    return place != foreign.end() && *place == column
+             ? n + static_cast<int>(place - foreign.begin())
+             : -1;
+  }
+
+
+
   void
-  DistributedMatrix::plan_exchange(const std::vector<int> &foreign_columns)
+  DistributedMatrix::plan_exchange()
   {
     int n_ranks, me;
     MPI_Comm_size(system->communicator, &n_ranks);
@@ -63,19 +73,17 @@ namespace kedge
     std::vector<int> wanted(n_ranks, 0), given(n_ranks, 0), begin(n_ranks, 0);
     for (int rank = 0; rank < n_ranks; ++rank)
       {
-        const auto first =
-          std::lower_bound(foreign_columns.begin(), foreign_columns.end(), first_rows[rank]);
-        const auto last =
-          std::lower_bound(foreign_columns.begin(), foreign_columns.end(), first_rows[rank + 1]);
-        begin[rank]  = static_cast<int>(first - foreign_columns.begin());
-        wanted[rank] = static_cast<int>(last - first);
+        const auto first = std::lower_bound(foreign.begin(), foreign.end(), first_rows[rank]);
+        const auto last  = std::lower_bound(foreign.begin(), foreign.end(), first_rows[rank + 1]);
+        begin[rank]      = static_cast<int>(first - foreign.begin());
+        wanted[rank]     = static_cast<int>(last - first);
       }
     MPI_Alltoall(wanted.data(), 1, MPI_INT, given.data(), 1, MPI_INT, system->communicator);
     std::vector<MPI_Request> requests;
     for (int rank = 0; rank < n_ranks; ++rank)
       if (rank != me && (wanted[rank] > 0 || given[rank] > 0))
-        neighbours.push_back({rank, std::vector<int>(given[rank]), n + begin[rank], wanted[rank]});
-    for (Neighbour &neighbour : neighbours)
+        neighbours_.push_back({rank, std::vector<int>(given[rank]), n + begin[rank], wanted[rank]});
+    for (Neighbour &neighbour : neighbours_)
       {
         requests.resize(requests.size() + 2);
         MPI_Irecv(neighbour.rows_to_send.data(),
@@ -85,7 +93,7 @@ namespace kedge
                   exchange_tag,
                   system->communicator,
                   &requests[requests.size() - 2]);
-        MPI_Isend(foreign_columns.data() + (neighbour.first_received - n),
+        MPI_Isend(foreign.data() + (neighbour.first_received - n),
                   neighbour.n_received,
                   MPI_INT,
                   neighbour.rank,
@@ -95,7 +103,7 @@ namespace kedge
       }
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
     std::size_t n_sent = 0;
-    for (Neighbour &neighbour : neighbours)
+    for (Neighbour &neighbour : neighbours_)
       {
         n_sent += neighbour.rows_to_send.size();
         for (int &row : neighbour.rows_to_send)
@@ -109,13 +117,13 @@ namespace kedge
   void
   DistributedMatrix::exchange(double *x) const
   {
-    if (neighbours.empty())
+    if (neighbours_.empty())
       return;
-    std::vector<MPI_Request> requests(2 * neighbours.size());
+    std::vector<MPI_Request> requests(2 * neighbours_.size());
     double                  *outgoing = buffer.data();
-    for (std::size_t k = 0; k < neighbours.size(); ++k)
+    for (std::size_t k = 0; k < neighbours_.size(); ++k)
       {
-        const Neighbour &neighbour = neighbours[k];
+        const Neighbour &neighbour = neighbours_[k];
         MPI_Irecv(x + neighbour.first_received,
                   neighbour.n_received,
                   MPI_DOUBLE,
@@ -143,17 +151,41 @@ namespace kedge
   void
   DistributedMatrix::find_row_groups()
   {
-    rows_together.assign(n_rows(), 1);
+    groups.clear();
+    runs.clear();
     const auto row = [&](const unsigned int i) {
       return system->column.begin() + system->row_start[i];
     };
-    for (unsigned int first = 0; first < n_rows(); first += rows_together[first])
-      for (unsigned int i = first + 1; i < std::min(n_rows(), first + most_together); ++i)
-        {
-          if (!std::equal(row(first), row(first + 1), row(i), row(i + 1)))
-            break;
-          ++rows_together[first];
-        }
+    for (unsigned int first = 0; first < n_rows(); first += groups.back().n_rows)
+      {
+        RowGroup group{first, 1, 0, 0};
+        while (first + group.n_rows < n_rows() && std::equal(row(first),
+                                                             row(first + 1),
+                                                             row(first + group.n_rows),
+                                                             row(first + group.n_rows + 1)))
+          ++group.n_rows;
+        find_runs(group);
+        groups.push_back(group);
+      }
+  }
+
+
+
+  void
+  DistributedMatrix::find_runs(RowGroup &group)
+  {
+    group.first_run = runs.size();
+    for (std::int64_t k = system->row_start[group.first_row];
+         k < system->row_start[group.first_row + 1];
+         ++k)
+      {
+        const int column = columns()[k];
+        if (runs.size() > group.first_run && column == runs.back().first + runs.back().length)
+          ++runs.back().length;
+        else
+          runs.push_back({column, 1});
+      }
+    group.end_run = runs.size();
   }
 
 
@@ -175,23 +207,34 @@ namespace kedge
 
 
 
-  template <int n_together>
+  /** Row by row: the processor fetches one stream of entries ahead better than three. */
   void
-  DistributedMatrix::multiply_rows(const unsigned int first, double *y) const
+  DistributedMatrix::multiply_rows(const RowGroup &group, double *y) const
   {
-    const std::int64_t begin           = system->row_start[first];
-    const std::int64_t length          = system->row_start[first + 1] - begin;
-    const int         *column          = columns() + begin;
-    const double      *value           = system->value.data() + begin;
-    double             sum[n_together] = {};
-    for (std::int64_t k = 0; k < length; ++k)
+    for (unsigned int i = group.first_row; i < group.first_row + group.n_rows; ++i)
       {
-        const double x = scaled[column[k]];
-        for (int r = 0; r < n_together; ++r)
-          sum[r] += value[r * length + k] * x;
+        const double *value = system->value.data() + system->row_start[i];
+        Pack          sums  = 0., entries, x;
+        double        sum   = 0.;
+        for (std::size_t r = group.first_run; r < group.end_run; ++r)
+          {
+            const double *from   = scaled.data() + runs[r].first;
+            const int     length = runs[r].length;
+            int           k      = 0;
+            for (; k + static_cast<int>(pack_width) <= length; k += pack_width)
+              {
+                std::memcpy(&entries, value + k, sizeof(Pack));
+                std::memcpy(&x, from + k, sizeof(Pack));
+                sums += entries * x;
+              }
+            for (; k < length; ++k)
+              sum += value[k] * from[k];
+            value += length;
+          }
+        for (unsigned int lane = 0; lane < pack_width; ++lane)
+          sum += sums[lane];
+        y[i] = scale[i] * sum;
       }
-    for (int r = 0; r < n_together; ++r)
-      y[first + r] = scale[first + r] * sum[r];
   }
 
 
@@ -202,20 +245,7 @@ namespace kedge
     for (unsigned int i = 0; i < n_rows(); ++i)
       scaled[i] = scale[i] * x[i];
     exchange(scaled.data());
-    for (unsigned int i = 0; i < n_rows(); i += rows_together[i])
-      switch (rows_together[i])
-        {
-          case 1:
-            multiply_rows<1>(i, y);
-            break;
-          case 2:
-            multiply_rows<2>(i, y);
-            break;
-          case 3:
-            multiply_rows<3>(i, y);
-            break;
-          default:
-            multiply_rows<4>(i, y);
-        }
+    for (const RowGroup &group : groups)
+      multiply_rows(group, y);
   }
 } // namespace kedge

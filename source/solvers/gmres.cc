@@ -55,7 +55,8 @@ namespace kedge
 
     /**
      * Takes from w its parts along the first n directions, which it returns,
-     * with the norm of the rest as the last one.
+     * with the norm of the rest as the last one. One sum over the ranks: what
+     * the parts leave of |w|^2 is the norm, accurate as long as it is not small.
      */
     Vector
     make_orthogonal(const std::vector<Vector> &directions,
@@ -70,13 +71,15 @@ namespace kedge
             part[k] = dot(directions[k], w);
           part[n] = dot(w, w);
           sum_over_ranks(part.data(), static_cast<int>(n) + 1, communicator);
+          double rest = part[n];
           for (unsigned int k = 0; k < n; ++k)
             {
               add(-part[k], directions[k], w);
               along[k] += part[k];
+              rest -= part[k] * part[k];
             }
-          along[n] = norm(w, communicator);
-          if (along[n] > cancellation * std::sqrt(part[n]))
+          along[n] = std::sqrt(std::max(rest, 0.));
+          if (rest > cancellation * cancellation * part[n])
             break;
         }
       return along;

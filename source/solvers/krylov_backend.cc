@@ -82,6 +82,7 @@ namespace kedge
       KrylovBackend(const MatrixTraits &traits, const bool with_multigrid)
         : traits(traits)
         , with_multigrid(with_multigrid)
+        , incomplete_lu(make_incomplete_lu(traits.space_dimension))
       {}
 
       LinearStatus
@@ -89,11 +90,15 @@ namespace kedge
       {
         communicator = system.communicator;
         if (new_pattern)
-          matrix.reinit(system);
+          {
+            matrix.reinit(system);
+            if (!with_multigrid)
+              incomplete_lu->reinit(matrix);
+          }
         matrix.set_values(system);
         if (!with_multigrid)
           {
-            incomplete_lu.factorise(matrix);
+            incomplete_lu->factorise(matrix);
             return {};
           }
         try
@@ -126,8 +131,7 @@ namespace kedge
               multigrid.multiply(from, to);
               return;
             }
-          std::copy(from, from + matrix.n_rows(), to);
-          incomplete_lu.solve(to);
+          incomplete_lu->multiply(matrix, from, to);
         };
         const GmresResult result =
           solve_gmres(multiply, precondition, scaled, x, tolerance, max_iterations, communicator);
@@ -141,12 +145,12 @@ namespace kedge
       }
 
     private:
-      const MatrixTraits traits;
-      const bool         with_multigrid;
-      MPI_Comm           communicator = MPI_COMM_SELF;
-      DistributedMatrix  matrix;
-      IncompleteLu       incomplete_lu;
-      Multigrid          multigrid;
+      const MatrixTraits            traits;
+      const bool                    with_multigrid;
+      MPI_Comm                      communicator = MPI_COMM_SELF;
+      DistributedMatrix             matrix;
+      std::unique_ptr<IncompleteLu> incomplete_lu;
+      Multigrid                     multigrid;
     };
   } // namespace
 

@@ -47,7 +47,7 @@ namespace kedge
     double
     iteration_time(const double n, const double n_entries, const bool multigrid)
     {
-      return multigrid ? 6e-9 * n_entries + 2e-7 * n : 1.3e-9 * n_entries + 2e-7 * n;
+      return multigrid ? 6e-9 * n_entries + 2e-7 * n : 8e-10 * n_entries + 6e-8 * n;
     }
 
     /**

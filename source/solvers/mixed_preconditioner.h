@@ -11,7 +11,7 @@ namespace kedge
    * The block triangular preconditioner of a scaled system in displacements
    * and pressures,
    *   p = S^-1 r_p,  u = A^-1 (r_u - G p),
-   * by one V-cycle of multigrid for each inverse. A's coarse levels keep the
+   * by one W-cycle of multigrid for each inverse. A's coarse levels keep the
    * rigid motions. S^-1 = (C + X_s)^-1 + (C + X_i)^-1 with X_s, X_i in place of
    * the Schur complement of stiffness and of inertia: of the two the smaller
    * counts (Cahouet and Chabert 1988). It is never off by more than a factor

@@ -31,6 +31,7 @@ namespace kedge
     ML_Epetra::SetDefaults("SA", list);
     list.set("ML output", 0);
     list.set("ML print initial list", -2);
+    list.set("prec type", "MGW"); // with V-cycles iterations grow with the number of levels
     list.set("PDE equations", n_per_node);
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", n_vectors);

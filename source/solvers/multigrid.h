@@ -27,7 +27,7 @@ namespace kedge
            std::vector<double>               near_kernel,
            const int                         n_vectors);
 
-    /** One V-cycle; this rank's rows (collective). */
+    /** One W-cycle; this rank's rows (collective). */
     void
     multiply(const std::vector<double> &x, std::vector<double> &y) const;
 
