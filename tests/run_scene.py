@@ -82,6 +82,8 @@ def scales(history):
     for name in largest:
         if "momentum" in name:
             largest[name] = max(largest[name], momentum)
+        elif name == "fluid_error":
+            largest[name] = largest["fluid_mass"]
         elif name.endswith(("_energy", "_work", "_error")):
             # one book: what is round-off of the whole is no difference in a part
             largest[name] = max(largest[name], energy)

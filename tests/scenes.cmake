@@ -133,7 +133,7 @@ kedge_add_scene_test(scene.footing_harmonic.waves prm/footing_harmonic.prm
 set(clay "Materials/skeleton/Preconsolidation pressure = 4e5"
   "Materials/skeleton/Critical state slope = 0.964" "Materials/skeleton/Surface alpha = 0.3"
   "Materials/skeleton/Surface gamma = 0.9")
-kedge_add_scene_test(scene.layer_at_rest prm/layer_at_rest.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.layer_at_rest prm/layer_at_rest.prm)
 kedge_add_scene_test(scene.layer_at_rest.linear prm/layer_at_rest.prm
   SET "Bodies/soil/Basis = linear" "Materials/skeleton/Model = improved_hencky")
 kedge_add_scene_test(scene.layer_at_rest.critical_state prm/layer_at_rest.prm
@@ -271,7 +271,7 @@ kedge_add_scene_test(refusal.initial_stress prm/layer_at_rest.prm
   LABELS refusal)
 kedge_add_scene_test(refusal.initial_stress_components prm/layer_at_rest.prm
   SET "Bodies/soil/Initial stress = 0; 0" EXPECT_EXIT 1
-  EXPECT_STDERR "Initial stress.*xx; yy; zz; xy" LABELS refusal)
+  EXPECT_STDERR "Initial stress.*It must be 4 expressions" LABELS refusal)
 kedge_add_scene_test(refusal.missing_face prm/gibson.prm
   SET "Surface pressures/top/Where = x > 1" EXPECT_EXIT 1
   EXPECT_STDERR "Surface pressure 'top' finds no exposed face" LABELS refusal)
