@@ -59,6 +59,7 @@ namespace
       : cloud({basis}, 2, 23)
       , loads(no_body_force(), {false}, {}, {}, {})
       , surfaces({}, {})
+      , fluxes({}, {})
       , parameters(time(kind))
       , scheme(parameters)
     {
@@ -123,7 +124,8 @@ namespace
                                                             PoreScheme(parameters)),
                                            loads,
                                            surfaces,
-                                           1.,
+                                           fluxes,
+                                           PorousParameters(),
                                            scheme,
                                            LinearSolverParameters(),
                                            std::vector<double>{2.6},
@@ -146,6 +148,7 @@ namespace
     Cloud<dim>            cloud;
     ExternalLoads<dim>    loads;
     SurfacePressures<dim> surfaces;
+    SurfaceFluxes<dim>    fluxes;
     const TimeParameters  parameters;
     const Scheme          scheme;
     GhostPenalty<dim>     ghosts;
