@@ -10,6 +10,7 @@
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
 #include <Epetra_Vector.h>
+#include <ml_utils.h>
 
 namespace kedge
 {
@@ -53,6 +54,7 @@ namespace kedge
         TrilinosWrappers::PreconditionAMG::AdditionalData data;
         data.elliptic              = positive_definite;
         data.aggregation_threshold = 0.02;
+        ML_set_random_seed(1); // of the start of its eigen-analysis
         preconditioner.initialize(matrix, data);
         source.reinit(matrix.locally_owned_range_indices(), communicator);
         result.reinit(source);

@@ -3,6 +3,8 @@
 #include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 
+#include <ml_utils.h>
+
 #include <stdexcept>
 
 namespace kedge
@@ -43,6 +45,7 @@ namespace kedge
     list.set("smoother: sweeps", 1);
     list.set("coarse: type", "Amesos-KLU");
     list.set("coarse: max size", coarsest);
+    ML_set_random_seed(1); // of the start of its eigen-analysis, else another after a resumption
     levels = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*matrix, list, false);
     if (levels->ComputePreconditioner() != 0)
       throw std::runtime_error("multigrid could not be set up");

@@ -12,11 +12,21 @@ using namespace kedge;
 
 namespace
 {
-  constexpr int width = 12, height = 10, dim = 2;
+  constexpr int dim = 2;
+
+  struct Strip
+  {
+    int width = 12, height = 10;
+  };
 
   /** Entry of node a, component c, and node b, component d; pressure is component 2. */
   double
-  entry(const int a, const int c, const int b, const int d, const double conductivity)
+  entry(const int    width,
+        const int    a,
+        const int    c,
+        const int    b,
+        const int    d,
+        const double conductivity)
   {
     const int dx = b % width - a % width, dy = b / width - a / width;
     if (std::abs(dx) > 1 || std::abs(dy) > 1)
@@ -36,8 +46,9 @@ namespace
 
   /** All equations, nodes in order; the first rank has a third of the nodes. */
   SparseSystem
-  make_system(const double conductivity, MixedBlocks &blocks)
+  make_system(const double conductivity, MixedBlocks &blocks, const Strip &strip = Strip())
   {
+    const int    width = strip.width, height = strip.height;
     const int    rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
     const int    n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     const int    n_nodes = width * height, third = n_ranks == 1 ? n_nodes : n_nodes / 3;
@@ -63,7 +74,7 @@ namespace
                   system.column.push_back(3 * b + d);
                   // springs hold the lowest row of nodes
                   const double spring = a == b && c == d && c < dim && a < width ? 1. : 0.;
-                  system.value.push_back(entry(a, c, b, d, conductivity) + spring);
+                  system.value.push_back(entry(width, a, c, b, d, conductivity) + spring);
                 }
               if (c < dim)
                 continue;
@@ -131,4 +142,36 @@ TEST(SolversMixedBlocksMpi, OwnsUpToFailure)
   const auto          status = solver.solve(std::vector<double>(system.n_rows(), 1.), x);
   EXPECT_FALSE(status.success);
   EXPECT_NE(status.cause.find("tolerance"), std::string::npos);
+}
+
+// A strip so wide and long that `automatic` takes the blocks. With a wrong sign in place of
+// the skeleton's part of the Schur complement, large, GMRES does not come to the tolerance
+// within the time of a direct solution, which takes over for that matrix alone.
+TEST(SolversMixedBlocksMpi, DirectMethodTakesOver)
+{
+  const Strip         strip{75, 40};
+  MixedBlocks         blocks;
+  const auto          system = make_system(1e-4, blocks, strip);
+  const MixedBlocks   good   = blocks;
+  std::vector<double> b(system.n_rows(), 0.), x;
+  for (unsigned int i = 0; i < system.n_rows(); ++i)
+    for (std::int64_t k = system.row_start[i]; k < system.row_start[i + 1]; ++k)
+      b[i] += system.value[k] * std::cos(0.1 * system.column[k]);
+  LinearSolver solver(LinearSolverParameters(), {dim, false, false, true});
+  for (const bool spoilt : {false, true, false})
+    {
+      SCOPED_TRACE(spoilt ? "spoilt" : "good");
+      blocks.by_stiffness.value = good.by_stiffness.value;
+      if (spoilt)
+        for (unsigned int k = 0; k < blocks.by_stiffness.value.size(); ++k)
+          blocks.by_stiffness.value[k] *= -1e3 * std::cos(1. * k);
+      solver.set_blocks(blocks);
+      ASSERT_TRUE(solver.factorise(system).success);
+      EXPECT_EQ(solver.method(), "krylov-blocks");
+      const auto status = solver.solve(b, x);
+      ASSERT_TRUE(status.success) << status.cause;
+      EXPECT_EQ(status.iterations > 0, !spoilt);
+      for (unsigned int i = 0; i < x.size(); ++i) // conditions below 1e4, residuals of 1e-10
+        EXPECT_NEAR(x[i], std::cos(0.1 * (system.first_row + i)), 1e-5);
+    }
 }
