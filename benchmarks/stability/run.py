@@ -42,7 +42,7 @@ def arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kedge", default=str(ROOT / "build" / "kedge"))
     parser.add_argument("--output", type=Path, default=ROOT / "output" / "stability")
-    parser.add_argument("--short", action="store_true", help="the two-minute part")
+    parser.add_argument("--short", action="store_true", help="the part that the tests run")
     parser.add_argument("--only", default="", help="cases whose group and name contain this text")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--timeout", type=float, default=300, help="seconds for one case")

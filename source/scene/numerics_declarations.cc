@@ -106,7 +106,7 @@ namespace kedge
                 "",
                 allow.number(NumberRange::not_negative()).or_empty(),
                 "ghost, in saturated bodies: of the penalty of changes of pressure, over the "
-                "fluid's compressibility 1/K_f [-]; empty: 1e-3."}}};
+                "fluid's compressibility 1/K_f [-]; empty: 0."}}};
     }
   } // namespace
 
