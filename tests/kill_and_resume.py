@@ -84,9 +84,8 @@ def descendants(pid):
 
 
 def has_checkpoint(output):
-    """True if a run left something to resume from."""
-    folder = output / "checkpoint"
-    return folder.is_dir() and any(folder.iterdir())
+    """True if a run left a whole state to resume from; what is unfinished has another name."""
+    return any((output / "checkpoint").glob("state-*"))
 
 
 def reference(arg, output):

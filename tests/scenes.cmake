@@ -306,8 +306,7 @@ kedge_add_test(benchmark.speed LABELS benchmark
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/speed)
 
 # --- Iterations of the block solver for saturated soil: a regression bound ---------
-# They grow by 1.82 from drained and coarse to undrained and fine; without what stands
-# for the skeleton in the Schur complement they grow by far more.
+# They grow by 1.82 from drained and coarse to undrained and fine.
 kedge_add_test(benchmark.saturated LABELS benchmark
   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/benchmarks/saturated/run.py
     --kedge $<TARGET_FILE:kedge> --output ${CMAKE_CURRENT_BINARY_DIR}/saturated
