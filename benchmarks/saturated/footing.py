@@ -21,6 +21,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import with_numpy  # noqa: F401 pylint: disable=unused-import
 import numpy as np
 
 HERE = Path(__file__).resolve().parent

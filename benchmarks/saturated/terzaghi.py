@@ -19,6 +19,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import with_numpy  # noqa: F401 pylint: disable=unused-import
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "source" / "plot"))

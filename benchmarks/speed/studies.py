@@ -151,7 +151,7 @@ def ranks(arg):
     mpirun = shutil.which("mpirun")
     if not mpirun:
         sys.exit("this part needs mpirun")
-    settings = {"Constants/n": n, "Constants/steps": 2, "Bodies/block/Basis": "linear"}
+    settings = {"Constants/n": n, "Constants/steps": 10, "Bodies/block/Basis": "linear"}
     prefix = [mpirun, "--oversubscribe", "--bind-to", "none", "-np", "2"]
     measured = measure(arg, "ranks", [("1 process", "block_3d.prm", settings),
                                       ("2 processes", "block_3d.prm", settings)],
