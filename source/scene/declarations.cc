@@ -241,23 +241,32 @@ namespace kedge
                   "Force per area of the undeformed face [Pa]."}}};
       }
 
+      /** Entries that say which faces a section is about, and one more. */
+      std::vector<EntryDeclaration>
+      faces_of_a_body(const EntryDeclaration &last) const
+      {
+        return {{"Body",
+                 required,
+                 allow.text("the name of a section of Bodies"),
+                 "The body whose faces they are."},
+                {"Side", required, allow.side(), "The side to which the faces look at the start."},
+                {"Where",
+                 "",
+                 allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
+                 "Only faces where this is true at the start; empty: all; 0: none."},
+                last};
+      }
+
       SectionDeclaration
       surface_pressures() const
       {
-        return {"Surface pressures",
-                "Pore pressures on the outer faces of a saturated body that look to one side; they "
-                "move with the body, and press on it as water does.",
-                SectionKind::named,
-                {{"Body",
-                  required,
-                  allow.text("the name of a section of Bodies"),
-                  "The body whose faces they are."},
-                 {"Side", required, allow.side(), "The side to which the faces look at the start."},
-                 {"Where",
-                  "",
-                  allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-                  "Only faces where this is true at the start; empty: all; 0: none."},
-                 {"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."}}};
+        return {
+          "Surface pressures",
+          "Pore pressures on the outer faces of a saturated body that look to one side; they "
+          "move with the body, and press on it as water does.",
+          SectionKind::named,
+          faces_of_a_body(
+            {"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."})};
       }
 
       SectionDeclaration
@@ -269,20 +278,12 @@ namespace kedge
                 "Fluid that enters through the outer faces of a saturated body that look to one "
                 "side; they move with the body.",
                 SectionKind::named,
-                {{"Body",
-                  required,
-                  allow.text("the name of a section of Bodies"),
-                  "The body whose faces they are."},
-                 {"Side", required, allow.side(), "The side to which the faces look at the start."},
-                 {"Where",
-                  "",
-                  allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-                  "Only faces where this is true at the start; empty: all; 0: none."},
-                 {"Flux",
-                  required,
-                  allow.expression(variables, coordinate_words("xyz") + ", t"),
-                  "Volume, as at pressure 0, per area of the face as it is and time, positive "
-                  "inwards [m/s]; x, y, z is its present place."}}};
+                faces_of_a_body(
+                  {"Flux",
+                   required,
+                   allow.expression(variables, coordinate_words("xyz") + ", t"),
+                   "Volume, as at pressure 0, per area of the face as it is and time, positive "
+                   "inwards [m/s]; x, y, z is its present place."})};
       }
 
       SectionDeclaration

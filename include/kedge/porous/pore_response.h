@@ -43,10 +43,16 @@ namespace kedge
    * its rate. Row i of momentum, column u_m or p of node B:
    *   e_Ai = momentum_gradient[i][R] g_AR + momentum_value[i] N_A
    *   d_A  = fluid_gradient[R] g_AR + fluid_value N_A + fluid_fluctuation (N_A - N^0_A)
-   *   de_Ai/du_Bm = g_AR uu[i][R][m][S] g_BS + N_A uu_value[i][m][S] g_BS + mass_inertia N_A N_B
-   * delta_im de_Ai/dp_B  = (g_AR up[i][R] + N_A up_value[i]) N_B dd_A/du_Bm  = g_AR pu[R][m][S]
-   * g_BS + N_A pu_value[m][S] g_BS + g_AR pu_inertia[R][m] N_B dd_A/dp_B   = g_AR pp[R][S] g_BS +
-   * g_AR pp_weight[R] N_B + N_A pp_value N_B
+   *
+   *   de_Ai/du_Bm = g_AR uu[i][R][m][S] g_BS + N_A uu_value[i][m][S] g_BS
+   *                 + delta_im mass_inertia N_A N_B
+   *
+   *   de_Ai/dp_B  = (g_AR up[i][R] + N_A up_value[i]) N_B
+   *
+   *   dd_A/du_Bm  = g_AR pu[R][m][S] g_BS + N_A pu_value[m][S] g_BS
+   *                 + g_AR pu_inertia[R][m] N_B
+   *
+   *   dd_A/dp_B   = g_AR pp[R][S] g_BS + g_AR pp_weight[R] N_B + N_A pp_value N_B
    *                 + pp_fluctuation (N_A - N^0_A)(N_B - N^0_B)
    */
   template <int dim>
