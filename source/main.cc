@@ -4,7 +4,7 @@
 #include <kedge/scene/command_line.h>
 #include <kedge/scene/read_scene.h>
 #include <kedge/simulation/drive_point.h>
-#include <kedge/simulation/simulation.h>
+#include <kedge/simulation/run.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -43,7 +43,7 @@ namespace kedge
       options.output = output_folder(command, scene.name);
       options.resume = command.resume;
       options.strict = command.strict;
-      return Simulation<dim>(scene, options, MPI_COMM_WORLD).run();
+      return Run<dim>(scene, options, MPI_COMM_WORLD).run();
     }
 
     void

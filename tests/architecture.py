@@ -23,17 +23,22 @@ MAY_INCLUDE = {
     "basis": {"grid", "points"},
     # pointwise laws: they know a material and a committed state, no grid
     "stress": {"materials"},
-    # sums between points and nodes; the consistent mass must be solved for
-    "transfer": {"basis", "grid", "points", "materials", "stress", "solvers"},
 }
-PHYSICS = MAY_INCLUDE["transfer"] | {"transfer", "materials", "time_integration"}
-MAY_INCLUDE["solid"] = PHYSICS
-# the skeleton of a soil is a solid: its loads, its balance as a step sees it
-MAY_INCLUDE["porous"] = PHYSICS | {"solid"}
-MAY_INCLUDE["contact"] = PHYSICS
+# bodies that move as one on the grid: their points, nodes and constraints
+MAY_INCLUDE["fields"] = {"basis", "grid", "points", "materials", "stress"}
+# what a step solves, and what a part of it must say of itself
+MAY_INCLUDE["equations"] = MAY_INCLUDE["fields"] | {"fields", "solvers", "time_integration"}
+# between points and nodes; the consistent mass must be solved for
+MAY_INCLUDE["transfer"] = MAY_INCLUDE["equations"] | {"equations"}
+MAY_INCLUDE["surfaces"] = MAY_INCLUDE["fields"] | {"fields"}
+# terms; they know each other only where one stands on the other
+MAY_INCLUDE["solid"] = MAY_INCLUDE["transfer"] | {"transfer", "surfaces"}
+# the skeleton of a soil is a solid
+MAY_INCLUDE["porous"] = MAY_INCLUDE["solid"] | {"solid"}
+MAY_INCLUDE["contact"] = MAY_INCLUDE["solid"]
 # scene sees nothing of the rooms but their parameters
 MAY_INCLUDE["scene"] = set()
-MAY_INCLUDE["io"] = PHYSICS | {"scene", "solid", "porous", "contact"}
+MAY_INCLUDE["io"] = MAY_INCLUDE["porous"] | {"scene", "porous", "contact"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) | {"io", "scene"}
 
 PARAMETER_HEADERS = re.compile(r"kedge/[a-z_]+/(parameters|loads|geometry)\.h$")

@@ -116,7 +116,10 @@ def interrupted(arg, output, first_row, whole):
         if killed >= arg.kills and (resumed or killed >= 4 * arg.kills):
             run.finish()
             return killed, resumed
-        if run.finish(rng.uniform(0.2 * first_row, longest)):
+        ended = False
+        while killed > 0 and not ended and not has_checkpoint(output):
+            ended = run.finish(0.01) # a kill before the first checkpoint proves little: once
+        if ended or run.finish(rng.uniform(0.2 * first_row, longest)):
             compare(arg, output)
             finished = 1
         else:

@@ -85,7 +85,7 @@ def scales(history):
             largest[name] = max(largest[name], momentum)
         elif name == "fluid_error":
             largest[name] = largest["fluid_mass"]
-        elif name.endswith(("_energy", "_work", "_error")):
+        elif re.search("_(energy|work|error)(_|$)", name):  # of the whole, or of one field
             # one book: what is round-off of the whole is no difference in a part
             largest[name] = max(largest[name], energy)
     return largest

@@ -41,6 +41,12 @@ kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm
   SET "Stabilisation/Method = aggregation")
 kedge_add_scene_test(scene.translating_body.linear prm/translating_body.prm
   SET "Bodies/disc/Basis = linear")
+# two fields on one grid: each body by itself
+kedge_add_scene_test(scene.crossing_bodies prm/crossing_bodies.prm COMPARE_RANKS 1e-9)
+kedge_add_scene_test(scene.crossing_bodies.linear prm/crossing_bodies.prm
+  SET "Bodies/disc/Basis = linear" "Bodies/block/Basis = linear")
+kedge_add_scene_test(scene.crossing_bodies.3d tests/scenes/crossing_bodies_3d.prm
+  COMPARE_RANKS 1e-9)
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.block_3d prm/block_3d.prm
   SET "Constants/h = 0.5" COMPARE_RANKS 1e-6)
@@ -195,6 +201,8 @@ kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
     "Mapping/Audit = true")
 kedge_add_restart_test(scene.restart.ghost prm/spinning_body.prm KILLS 1
   SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Stabilisation/Method = ghost")
+kedge_add_restart_test(scene.restart.fields prm/crossing_bodies.prm KILLS 1
+  SET "Output/Checkpoint every steps = 5")
 # the clock goes on in the steps that Newton's method has found good
 kedge_add_restart_test(scene.restart.adapted_steps prm/collapse.prm KILLS 1
   SET "Constants/points = 6" "Constants/steps = 160" "Time/Largest step factor = 4"

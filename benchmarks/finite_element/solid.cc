@@ -378,14 +378,16 @@ namespace finite_element
     correction *= -1.;
     constraints.set_zero(correction);
     norm = correction.l2_norm();
+    base = increment;
     return status;
   }
 
 
 
   void
-  Solid::apply_correction(const double factor)
+  Solid::retract(const double factor)
   {
+    increment = base;
     increment.add(factor, correction);
   }
 

@@ -59,7 +59,7 @@ namespace finite_element
     solve_correction(double &norm, const bool keep_tangent) override;
 
     void
-    apply_correction(const double factor) override;
+    retract(const double factor) override;
 
     /** Commits the step that has converged. @return false if a point cannot follow. */
     bool
@@ -155,6 +155,7 @@ namespace finite_element
 
     dealii::Vector<double> displacement_n, velocity_n, acceleration_n;
     dealii::Vector<double> increment, correction;
+    dealii::Vector<double> base; ///< increment at the last correction
     dealii::Vector<double> internal, inertia, external, residual;
     dealii::Vector<double> gravity_load[dim], end_load[dim]; ///< of unit acceleration, of unit load
     double                 t_n = 0., dt = 0., external_work = 0.;

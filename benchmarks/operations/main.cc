@@ -8,7 +8,7 @@
 #include <kedge/base/pack.h>
 #include <kedge/materials/hencky.h>
 #include <kedge/stress/force_stress.h>
-#include <kedge/transfer/step_points.h>
+#include <kedge/fields/step_points.h>
 
 #include <chrono>
 #include <iostream>

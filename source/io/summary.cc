@@ -22,31 +22,25 @@ namespace kedge
       json.close();
     }
 
+    /** The components of a vector stand together; all other columns of the ledger by name. */
     void
     add_final_row(JsonWriter &json, const RunSummary &summary)
     {
-      const HistoryRow &row = summary.final_row;
       json.open("final", '{');
-      json.add("step", row.step);
-      json.add("time", row.time);
-      json.add("kinetic_energy", row.kinetic_energy);
-      json.add("strain_energy", row.strain_energy);
-      json.add("hardening_energy", row.hardening_energy);
-      json.add("plastic_dissipation", row.plastic_dissipation);
-      json.add("stabilisation_energy", row.stabilisation_energy);
-      json.add("external_work", row.external_work);
-      json.add("total_energy", row.total_energy());
-      json.add("energy_error", row.energy_error);
-      json.open("linear_momentum", '[');
-      for (unsigned int d = 0; d < summary.dim; ++d)
-        json.add("", row.linear_momentum[d]);
-      json.close();
-      json.open("angular_momentum", '[');
-      for (unsigned int d = (summary.dim == 3 ? 0 : 2); d < 3; ++d)
-        json.add("", row.angular_momentum[d]);
-      json.close();
-      json.add("mass", row.mass);
-      json.add("min_det_F", row.min_det_F);
+      json.add("step", summary.final_row.step);
+      json.add("time", summary.final_row.time);
+      for (const std::string vector : {"linear_momentum", "angular_momentum"})
+        {
+          json.open(vector, '[');
+          for (const char component : {'x', 'y', 'z'})
+            for (std::size_t k = 0; k < summary.columns.size(); ++k)
+              if (summary.columns[k].name == vector + "_" + component)
+                json.add("", summary.final_row.books[k]);
+          json.close();
+        }
+      for (std::size_t k = 0; k < summary.columns.size(); ++k)
+        if (summary.columns[k].section != Ledger::Section::momentum)
+          json.add(summary.columns[k].name, summary.final_row.books[k]);
       json.close();
     }
 

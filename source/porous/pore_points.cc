@@ -17,6 +17,8 @@ namespace kedge
                        const dealii::Point<dim> &,
                        const PointState<dim> &state) {
       const unsigned int slot = points.slot_of[number];
+      if (slot == StepPoints<dim>::no_slot)
+        return;
       pressure[slot]          = state.pore_pressure;
       fluctuation[slot]       = state.pore_pressure_fluctuation;
       if (!scheme.carries_rates)

@@ -1,5 +1,5 @@
+#include <kedge/fields/step_points.h>
 #include <kedge/porous/surface_fluxes.h>
-#include <kedge/transfer/step_points.h>
 
 namespace kedge
 {
@@ -39,8 +39,10 @@ namespace kedge
 
   template <int dim>
   SurfaceFluxes<dim>::SurfaceFluxes(const std::vector<SurfaceFluxParameters> &parameters,
-                                    const std::map<std::string, double>      &constants)
+                                    const std::map<std::string, double>      &constants,
+                                    const LoadProgram                        &program)
     : SurfaceFaces<dim>("Surface flux", {parameters.begin(), parameters.end()}, constants)
+    , program(program)
   {
     for (const auto &p : parameters)
       expressions.emplace_back(p.flux, std::vector<std::string>{"x", "y", "z", "t"}, constants);
@@ -62,7 +64,7 @@ namespace kedge
         {
           if (face.slot < batch.begin || face.slot >= batch.end)
             continue;
-          double x[4] = {0, 0, 0, t}, square = 0.;
+          double x[4] = {0, 0, 0, program.time(t)}, square = 0.;
           for (int d = 0; d < dim; ++d)
             {
               x[d] = points.location[face.slot][d] + face.offset[d];

@@ -4,8 +4,10 @@ namespace kedge
 {
   template <int dim>
   SurfacePressures<dim>::SurfacePressures(const std::vector<SurfacePressureParameters> &parameters,
-                                          const std::map<std::string, double>          &constants)
+                                          const std::map<std::string, double>          &constants,
+                                          const LoadProgram                            &program)
     : SurfaceFaces<dim>("Surface pressure", {parameters.begin(), parameters.end()}, constants)
+    , program(program)
   {
     for (const auto &p : parameters)
       expressions.emplace_back(p.pressure, std::vector<std::string>{"t"}, constants);
@@ -19,7 +21,7 @@ namespace kedge
   {
     std::vector<double> result;
     for (const auto &expression : expressions)
-      result.push_back(expression({t}));
+      result.push_back(expression({program.time(t)}));
     return result;
   }
 
@@ -27,7 +29,8 @@ namespace kedge
 
   template <int dim>
   void
-  SurfacePressures<dim>::add_force(const double                         t,
+  SurfacePressures<dim>::add_force(const StepPoints<dim> &,
+                                   const double                         t,
                                    std::vector<dealii::Tensor<1, dim>> &forces) const
   {
     const std::vector<double> p = pressures(t);

@@ -1,3 +1,4 @@
+#include <kedge/scene/contact_section.h>
 #include <kedge/scene/declarations.h>
 #include <kedge/scene/material_declarations.h>
 #include <kedge/scene/numerics_declarations.h>
@@ -27,6 +28,7 @@ namespace kedge
                                                     declare_materials(allow),
                                                     declare_pore_fluid<dim>(allow),
                                                     bodies(),
+                                                    declare_contact(allow),
                                                     node_conditions(),
                                                     body_force(),
                                                     point_loads(),

@@ -1,3 +1,4 @@
+#include <kedge/scene/contact_section.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
@@ -454,6 +455,7 @@ namespace kedge
     scene.node_conditions = read_node_conditions<dim>(reader);
     scene.materials       = read_materials(reader);
     scene.bodies          = read_bodies<dim>(reader, scene.grid);
+    scene.contacts        = read_contacts(reader);
     scene.body_force      = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
     scene.point_loads     = read_point_loads<dim>(reader);
     scene.tractions       = read_tractions<dim>(reader);

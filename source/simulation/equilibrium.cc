@@ -1,71 +1,31 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/simulation/equilibrium.h>
-#include <kedge/simulation/step_engine.h>
-
-#include <regex>
+#include <kedge/simulation/step.h>
 
 namespace kedge
 {
   namespace
   {
-    /** Expressions of a scene as they are at its start, and as they grow in the stage. */
-    class Freeze
+    /** Forces grow over the stage, unless the bodies begin it under their stress. */
+    template <int dim>
+    bool
+    grows(const Scene<dim> &scene)
     {
-    public:
-      Freeze(const double start, const double duration, const bool grows)
-      {
-        std::ostringstream text;
-        text << std::setprecision(17) << '(' << start << ')';
-        time = text.str();
-        text.str("");
-        text << std::setprecision(17) << "t/" << duration << "*(";
-        ramp = grows ? text.str() : "(";
-      }
-
-      std::string
-      frozen(const std::string &expression) const
-      {
-        return std::regex_replace(expression, std::regex("\\bt\\b"), time);
-      }
-
-      template <std::size_t n>
-      void
-      grow(std::array<std::string, n> &expressions) const
-      {
-        for (std::string &expression : expressions)
-          expression = ramp + frozen(expression) + ")";
-      }
-
-    private:
-      std::string time, ramp;
-    };
+      return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &body) {
+        return body.initial_stress.empty();
+      });
+    }
 
     /** The scene of the stage, from t = 0 to its duration. */
     template <int dim>
     Scene<dim>
     stage_of(const Scene<dim> &scene)
     {
-      Scene<dim>   stage = scene;
-      const bool   grows = std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &b) {
-        return b.initial_stress.empty();
-      });
-      const Freeze at_start(scene.time.start, scene.equilibrium.duration, grows);
-      at_start.grow(stage.body_force);
-      for (auto &load : stage.point_loads)
-        at_start.grow(load.force);
-      for (auto &traction : stage.tractions)
-        at_start.grow(traction.traction);
-      for (auto &surface : stage.surface_pressures)
-        surface.pressure = at_start.frozen(surface.pressure);
-      for (auto &surface : stage.surface_fluxes)
-        surface.flux = at_start.frozen(surface.flux);
+      Scene<dim> stage = scene;
       for (auto &condition : stage.node_conditions)
-        {
-          condition.pore_pressure = at_start.frozen(condition.pore_pressure);
-          for (auto &component : condition.components)
-            if (component.kind != ConditionKind::free)
-              component.kind = ConditionKind::fixed;
-        }
+        for (auto &component : condition.components)
+          if (component.kind != ConditionKind::free)
+            component.kind = ConditionKind::fixed;
       stage.time.scheme       = SchemeKind::quasi_static;
       stage.equilibrium.steps = 0;
       return stage;
@@ -89,20 +49,24 @@ namespace kedge
   std::vector<PointRecord<dim>>
   points_in_equilibrium(const Scene<dim> &scene, const MPI_Comm communicator)
   {
-    StepEngine<dim> engine(stage_of(scene), communicator);
-    engine.create_points();
-    engine.initialise_points(0.);
-    const double dt = scene.equilibrium.duration / scene.equilibrium.steps;
+    const double duration = scene.equilibrium.duration;
+    Model<dim>   model(stage_of(scene),
+                     communicator,
+                     LoadProgram(scene.time.start, duration, grows(scene)));
+    Step<dim>    stage(model);
+    model.create_points();
+    stage.initialise_points(0., false);
+    const double dt = duration / scene.equilibrium.steps;
     for (unsigned int step = 0; step < scene.equilibrium.steps; ++step)
       {
-        const StepReport report = engine.try_step(step * dt, dt);
+        const StepReport report = stage.attempt({step * dt, dt});
         if (!report.accepted)
           throw UserError("Equilibrium: step " + std::to_string(step + 1) + " of " +
                           std::to_string(scene.equilibrium.steps) + " does not converge: " +
                           report.cause + ". Take more (Equilibrium/Steps).");
-        engine.accept_step();
+        stage.commit();
       }
-    auto records = engine.points().records();
+    auto records = model.points.points().records();
     for (auto &record : records)
       start_anew(record);
     return records;

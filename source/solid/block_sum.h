@@ -2,7 +2,7 @@
 #define kedge_solid_block_sum_h
 
 #include <kedge/base/pack.h>
-#include <kedge/transfer/node_matrix.h>
+#include <kedge/equations/node_matrix.h>
 
 #include <cstring>
 

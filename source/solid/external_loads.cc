@@ -44,12 +44,14 @@ namespace kedge
                                     const std::vector<bool>                     &has_body_force,
                                     const std::vector<PointLoadParameters<dim>> &point_loads,
                                     const std::vector<TractionParameters<dim>>  &tractions,
-                                    const std::map<std::string, double>         &constants)
+                                    const std::map<std::string, double>         &constants,
+                                    const LoadProgram                           &program)
     : body_force(functions_of_time<dim>(body_force, constants))
     , has_body_force(has_body_force)
     , point_loads(point_loads)
     , tractions(tractions)
     , constants(constants)
+    , program(program)
   {
     for (const auto &load : point_loads)
       load_expressions.push_back(functions_of_time<dim>(load.force, constants));
@@ -156,7 +158,7 @@ namespace kedge
   {
     std::array<double, std::size_t(dim)> result;
     for (int d = 0; d < dim; ++d)
-      result[d] = body_force[d]({t});
+      result[d] = program.factor(t) * body_force[d]({program.time(t)});
     return result;
   }
 
@@ -164,21 +166,22 @@ namespace kedge
 
   template <int dim>
   void
-  ExternalLoads<dim>::force(const StepPoints<dim>               &points,
-                            const double                         t,
-                            std::vector<dealii::Tensor<1, dim>> &forces) const
+  ExternalLoads<dim>::add_force(const StepPoints<dim>               &points,
+                                const double                         t,
+                                std::vector<dealii::Tensor<1, dim>> &forces) const
   {
-    forces.assign(points.size(), {});
-    const dealii::Tensor<1, dim> acceleration = evaluate<dim>(body_force, t);
+    const double                 load_time = program.time(t);
+    const dealii::Tensor<1, dim> acceleration =
+      program.factor(t) * evaluate<dim>(body_force, load_time);
     if (acceleration.norm_square() > 0.)
       for (const auto &batch : points.batches)
         if (has_body_force[batch.body])
           for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
-            forces[slot] = points.mass[slot] * acceleration;
+            forces[slot] += points.mass[slot] * acceleration;
 
     std::vector<dealii::Tensor<1, dim>> loads;
     for (const auto &expressions : load_expressions)
-      loads.push_back(evaluate<dim>(expressions, t));
+      loads.push_back(program.factor(t) * evaluate<dim>(expressions, load_time));
     for (const unsigned int slot : points.loaded)
       {
         const auto found = shares.find(points.id[slot]);

@@ -5,7 +5,7 @@
 
 #include <kedge/solid/group_dilatation.h>
 #include <kedge/stress/mean_dilatation.h>
-#include <kedge/transfer/point_packs.h>
+#include <kedge/fields/point_packs.h>
 
 namespace kedge
 {

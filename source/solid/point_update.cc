@@ -1,7 +1,7 @@
+#include <kedge/fields/point_packs.h>
 #include <kedge/solid/group_dilatation.h>
 #include <kedge/solid/point_update.h>
 #include <kedge/stress/mean_dilatation.h>
-#include <kedge/transfer/point_packs.h>
 
 namespace kedge
 {

@@ -107,11 +107,11 @@ namespace kedge
       report.linear_iterations += linear.iterations;
       if (!linear.success || !std::isfinite(norm))
         return false;
-      problem.apply_correction(1.);
+      problem.retract(1.);
       const NewtonProblem::Evaluation attempt = problem.evaluate();
       if (!attempt.ok || attempt.residual_norm >= evaluation.residual_norm)
         {
-          problem.apply_correction(-1.);
+          problem.retract(0.);
           problem.evaluate();
           return false;
         }
@@ -149,7 +149,7 @@ namespace kedge
     NewtonProblem::Evaluation
     advance(NewtonProblem &problem, const double bound)
     {
-      problem.apply_correction(1.);
+      problem.retract(1.);
       NewtonProblem::Evaluation evaluation = problem.evaluate();
       double                    factor     = 1.;
       for (unsigned int k = 0;
@@ -157,7 +157,7 @@ namespace kedge
            ++k)
         {
           factor *= 0.5;
-          problem.apply_correction(-factor);
+          problem.retract(factor);
           evaluation = problem.evaluate();
         }
       return evaluation;

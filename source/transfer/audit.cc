@@ -170,6 +170,26 @@ namespace kedge
 
 
   template <int dim>
+  TransferAudit<dim> &
+  TransferAudit<dim>::operator+=(const TransferAudit &other)
+  {
+    const auto add = [](MotionTotals<dim> &sum, const MotionTotals<dim> &term) {
+      sum.linear_momentum += term.linear_momentum;
+      sum.angular_momentum += term.angular_momentum;
+      sum.kinetic_energy += term.kinetic_energy;
+    };
+    add(points_n, other.points_n);
+    add(grid_n, other.grid_n);
+    add(points_np1, other.points_np1);
+    add(grid_np1, other.grid_np1);
+    add(expected_p2g, other.expected_p2g);
+    add(expected_step, other.expected_step);
+    return *this;
+  }
+
+
+
+  template <int dim>
   TransferAudit<dim>
   audit_transfer(const BackgroundGrid<dim>                 &grid,
                  const ActiveNodes<dim>                    &nodes,
@@ -227,6 +247,7 @@ namespace kedge
   }
 
 #define KEDGE_INSTANTIATE(dim)                                                                 \
+  template TransferAudit<dim> &TransferAudit<dim>::operator+=(const TransferAudit<dim> &);     \
   template MotionTotals<dim>  operator-(const MotionTotals<dim> &, const MotionTotals<dim> &); \
   template TransferAudit<dim> audit_transfer(const BackgroundGrid<dim> &,                      \
                                              const ActiveNodes<dim> &,                         \

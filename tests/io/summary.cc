@@ -59,9 +59,11 @@ TEST(IoSummaryMpi, AParserReadsItBack)
   summary.phase_wall_seconds["transfer"] = 0.25;
   summary.peak_memory_bytes              = peak_memory(MPI_COMM_WORLD);
   summary.cpu_seconds                    = cpu_seconds(MPI_COMM_WORLD);
-  summary.final_row.kinetic_energy       = 1;
-  summary.final_row.strain_energy        = 2;
-  summary.final_row.angular_momentum[1]  = 5;
+  summary.columns                        = {{"total_energy", "J", Ledger::Section::work, false},
+                                            {"angular_momentum_x", "kg m^2/s", Ledger::Section::momentum, false},
+                                            {"angular_momentum_y", "kg m^2/s", Ledger::Section::momentum, false},
+                                            {"angular_momentum_z", "kg m^2/s", Ledger::Section::momentum, false}};
+  summary.final_row.books                = {3., 0., 5., 0.};
   summary.checks                         = {{"tip", 1.5, 1.4, 0.1, true, true, "book", ""},
                                             {"gone", std::nan(""), 1, 0, true, false, "", "no rows"}};
 

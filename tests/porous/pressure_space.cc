@@ -2,7 +2,7 @@
 #include "../stress/random_states.h"
 
 #include <kedge/porous/porous_force.h>
-#include <kedge/transfer/equation_system.h>
+#include <kedge/equations/equation_system.h>
 #include <kedge/transfer/node_sums.h>
 
 #include <gtest/gtest.h>

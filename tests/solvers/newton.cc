@@ -41,6 +41,7 @@ namespace
       if (!keep_tangent)
         tangent = slope(x);
       correction = -f(x) / tangent;
+      base       = x;
       norm       = std::abs(correction);
       LinearStatus status;
       status.iterations = 5;
@@ -48,13 +49,13 @@ namespace
     }
 
     void
-    apply_correction(const double factor) override
+    retract(const double factor) override
     {
-      x += factor * correction;
+      x = base + factor * correction;
     }
 
     std::function<double(double)> f, slope;
-    double                        x, tangent = 0., correction = 0., scale = 1.;
+    double                        x, base = 0., tangent = 0., correction = 0., scale = 1.;
     double                        lowest = -std::numeric_limits<double>::infinity();
     std::string                   linear_cause;
     unsigned int                  n_evaluations = 0;

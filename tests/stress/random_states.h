@@ -3,7 +3,7 @@
 #define kedge_tests_stress_random_states_h
 
 #include <kedge/materials/von_mises.h>
-#include <kedge/transfer/step_points.h>
+#include <kedge/fields/step_points.h>
 
 #include <random>
 #include <string>

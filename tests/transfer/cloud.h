@@ -4,9 +4,9 @@
 
 #include "../stress/random_states.h"
 
-#include <kedge/grid/active_nodes.h>
+#include <kedge/fields/active_nodes.h>
 #include <kedge/transfer/node_sums.h>
-#include <kedge/transfer/node_ties.h>
+#include <kedge/fields/node_ties.h>
 
 namespace kedge::test
 {
@@ -41,7 +41,8 @@ namespace kedge::test
           const unsigned int            seed,
           const int                     block_width = 2,
           const double                  threshold   = 0.)
-      : grid(some_grid<dim>(box()), MPI_COMM_WORLD)
+      : basis_of_body(basis_of_body)
+      , grid(some_grid<dim>(box()), MPI_COMM_WORLD)
       , conditions({}, {})
     {
       make_records(basis_of_body.size(), points_per_direction, seed, block_width);
@@ -101,6 +102,7 @@ namespace kedge::test
       return Hencky(parameters);
     }
 
+    const std::vector<BasisKind>  basis_of_body;
     std::vector<PointRecord<dim>> records; ///< of all points, on all ranks
     BackgroundGrid<dim>           grid;
     MaterialPoints<dim>           points;

@@ -2,7 +2,7 @@
 // one rank and on two.
 #include "dense.h"
 
-#include <kedge/transfer/equation_system.h>
+#include <kedge/equations/equation_system.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #ifndef kedge_io_history_writer_h
 #define kedge_io_history_writer_h
 
+#include <kedge/equations/ledger.h>
 #include <kedge/io/csv_file.h>
 #include <kedge/io/history_row.h>
 #include <kedge/io/run_folder.h>
@@ -12,20 +13,9 @@
 
 namespace kedge
 {
-  /** Which physics a run has; the others leave their columns out of history.csv. */
-  struct HistoryColumns
-  {
-    unsigned int dim           = 2;
-    bool         plasticity    = false; ///< hardening_energy, plastic_dissipation
-    bool         stabilisation = false; ///< stabilisation_energy
-    bool         pores         = false; ///< fluid_energy, darcy_dissipation, the masses
-
-    std::vector<std::string> reactions = {}; ///< reaction_NAME_x.., of HistoryRow::reactions
-
-    /** In the order of the file. */
-    std::vector<std::string>
-    names() const;
-  };
+  /** The columns of history.csv: the step, what the ledger holds, the wall time. */
+  std::vector<std::string>
+  history_columns(const std::vector<Ledger::Column> &books);
 
   /** history.csv: one row per accepted step, written as it happens by rank 0. */
   class HistoryWriter
@@ -36,7 +26,7 @@ namespace kedge
      * are cut off. Collective. Throws UserError as CsvFile does.
      */
     HistoryWriter(const RunFolder                    &folder,
-                  const HistoryColumns               &columns,
+                  const std::vector<Ledger::Column>  &books,
                   const std::optional<std::uint64_t> &resume_at = {});
 
     /** Not collective; does nothing on ranks > 0. */
@@ -48,8 +38,8 @@ namespace kedge
     position();
 
   private:
-    HistoryColumns           columns;
-    std::unique_ptr<CsvFile> file;
+    std::vector<Ledger::Column> books;
+    std::unique_ptr<CsvFile>    file;
   };
 } // namespace kedge
 

@@ -2,6 +2,7 @@
 #define kedge_io_summary_h
 
 #include <kedge/io/check_result.h>
+#include <kedge/equations/ledger.h>
 #include <kedge/io/history_row.h>
 #include <kedge/io/run_folder.h>
 
@@ -41,7 +42,8 @@ namespace kedge
     /** Material points times Newton iterations over the time spent in them [1/s]. */
     double point_updates_per_second = HistoryRow::unset;
 
-    HistoryRow               final_row;
+    std::vector<Ledger::Column> columns; ///< of the books in final_row
+    HistoryRow                  final_row;
     std::vector<CheckResult> checks;
   };
 

@@ -2,6 +2,7 @@
 #define kedge_porous_parameters_h
 
 #include <kedge/materials/pore_fluid.h>
+#include <kedge/surfaces/parameters.h>
 
 #include <string>
 
@@ -24,22 +25,13 @@ namespace kedge
     double surface_penalty = 10; ///< of SurfacePressures, times conductivity over cell size [-]
   };
 
-  /** Outer faces of a body that look to one side; they move with it. */
-  struct SurfaceParameters
-  {
-    std::string  name;
-    std::string  body;
-    unsigned int side = 0; ///< 2*direction + (0: low, 1: high)
-    std::string  where;    ///< expression of x, y, z; empty: everywhere
-  };
-
-  /** The pore pressure there. */
+  /** A pore pressure on outer faces of a body. */
   struct SurfacePressureParameters : SurfaceParameters
   {
     std::string pressure; ///< expression of t [Pa]
   };
 
-  /** What fluid enters there. */
+  /** What fluid enters through outer faces of a body. */
   struct SurfaceFluxParameters : SurfaceParameters
   {
     std::string flux; ///< expression of x, y, z, t [m/s]

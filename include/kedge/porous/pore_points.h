@@ -1,10 +1,10 @@
 #ifndef kedge_porous_pore_points_h
 #define kedge_porous_pore_points_h
 
+#include <kedge/fields/step_points.h>
 #include <kedge/materials/pore_fluid.h>
 #include <kedge/points/material_points.h>
 #include <kedge/time_integration/pore_scheme.h>
-#include <kedge/transfer/step_points.h>
 
 namespace kedge
 {

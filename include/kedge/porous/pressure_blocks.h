@@ -1,8 +1,8 @@
 #ifndef kedge_porous_pressure_blocks_h
 #define kedge_porous_pressure_blocks_h
 
+#include <kedge/equations/equation_system.h>
 #include <kedge/solvers/mixed_blocks.h>
-#include <kedge/transfer/equation_system.h>
 
 namespace kedge
 {

@@ -1,9 +1,9 @@
 #ifndef kedge_porous_pressure_mapping_h
 #define kedge_porous_pressure_mapping_h
 
+#include <kedge/fields/node_ties.h>
 #include <kedge/porous/parameters.h>
 #include <kedge/transfer/node_sums.h>
-#include <kedge/transfer/node_ties.h>
 
 namespace kedge
 {

@@ -1,8 +1,8 @@
 #ifndef kedge_porous_pressure_projection_h
 #define kedge_porous_pressure_projection_h
 
-#include <kedge/grid/node_conditions.h>
-#include <kedge/transfer/equation_system.h>
+#include <kedge/equations/equation_system.h>
+#include <kedge/fields/node_conditions.h>
 #include <kedge/transfer/node_sums.h>
 
 namespace kedge
@@ -18,7 +18,7 @@ namespace kedge
    * @param pressures of the points, in the slots of StepPoints [Pa]
    * @param bulk_modulus K_f [Pa]
    * @param status of the nodal unknowns, dim + 1 per node
-   * @param storage M_G, partial sums; see GhostMatrices [m^3/Pa]
+   * @param storage M_G, partial sums; see PorousGhostTerm [m^3/Pa]
    * @param nodal dim + 1 values per local node, the last the pressure: first guess and
    *        prescribed values on entry, the solution on return, ghosts up to date
    */

@@ -1,8 +1,10 @@
 #ifndef kedge_porous_surface_fluxes_h
 #define kedge_porous_surface_fluxes_h
 
-#include <kedge/grid/active_nodes.h>
-#include <kedge/porous/surface_faces.h>
+#include <kedge/base/load_program.h>
+#include <kedge/fields/active_nodes.h>
+#include <kedge/porous/parameters.h>
+#include <kedge/surfaces/surface_faces.h>
 
 namespace kedge
 {
@@ -16,7 +18,8 @@ namespace kedge
   {
   public:
     SurfaceFluxes(const std::vector<SurfaceFluxParameters> &parameters,
-                  const std::map<std::string, double>      &constants);
+                  const std::map<std::string, double>      &constants,
+                  const LoadProgram                        &program = {});
 
     /**
      * Adds the volume that enters in a step @p dt at the rate of time @p t to
@@ -32,6 +35,7 @@ namespace kedge
                std::vector<double>      &supply) const;
 
   private:
+    const LoadProgram       program;
     std::vector<Expression> expressions; ///< of x, y, z, t [m/s]
   };
 } // namespace kedge

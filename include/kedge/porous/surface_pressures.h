@@ -1,7 +1,10 @@
 #ifndef kedge_porous_surface_pressures_h
 #define kedge_porous_surface_pressures_h
 
-#include <kedge/porous/surface_faces.h>
+#include <kedge/base/load_program.h>
+#include <kedge/porous/parameters.h>
+#include <kedge/solid/point_forces.h>
+#include <kedge/surfaces/surface_faces.h>
 
 namespace kedge
 {
@@ -10,21 +13,33 @@ namespace kedge
    * surface as water also presses on the mixture, traction -p n, (4.198).
    */
   template <int dim>
-  class SurfacePressures : public SurfaceFaces<dim>
+  class SurfacePressures
+    : public SurfaceFaces<dim>
+    , public PointForces<dim>
   {
   public:
     SurfacePressures(const std::vector<SurfacePressureParameters> &parameters,
-                     const std::map<std::string, double>          &constants);
+                     const std::map<std::string, double>          &constants,
+                     const LoadProgram                            &program = {});
 
     /** The prescribed pressure of each surface at time @p t [Pa]. */
     std::vector<double>
     pressures(const double t) const;
 
-    /** Adds the force of the water on the points, one per slot, at time @p t [N]. */
+    bool
+    empty() const override
+    {
+      return SurfaceFaces<dim>::empty();
+    }
+
+    /** The force of the water on the points, one per slot, at time @p t [N]. */
     void
-    add_force(const double t, std::vector<dealii::Tensor<1, dim>> &forces) const;
+    add_force(const StepPoints<dim>               &points,
+              const double                         t,
+              std::vector<dealii::Tensor<1, dim>> &forces) const override;
 
   private:
+    const LoadProgram       program;
     std::vector<Expression> expressions; ///< of t [Pa]
   };
 } // namespace kedge

@@ -1,6 +1,7 @@
 #ifndef kedge_scene_scene_h
 #define kedge_scene_scene_h
 
+#include <kedge/contact/parameters.h>
 #include <kedge/grid/parameters.h>
 #include <kedge/io/parameters.h>
 #include <kedge/materials/parameters.h>
@@ -30,6 +31,7 @@ namespace kedge
     std::vector<NodeConditionParameters<dim>> node_conditions;
     std::vector<MaterialParameters>           materials;
     std::vector<BodyParameters<dim>>          bodies;
+    std::vector<ContactParameters>            contacts;
     std::optional<PorousParameters>           pore_fluid; ///< saturates all bodies
     std::vector<SurfacePressureParameters>    surface_pressures;
     std::vector<SurfaceFluxParameters>        surface_fluxes;

@@ -2,9 +2,11 @@
 #define kedge_solid_external_loads_h
 
 #include <kedge/base/expression.h>
+#include <kedge/base/load_program.h>
+#include <kedge/fields/step_points.h>
 #include <kedge/points/generation.h>
 #include <kedge/solid/parameters.h>
-#include <kedge/transfer/step_points.h>
+#include <kedge/solid/point_forces.h>
 
 #include <unordered_map>
 
@@ -15,7 +17,7 @@ namespace kedge
    * loads, tractions. All are dead loads that move with their points.
    */
   template <int dim>
-  class ExternalLoads
+  class ExternalLoads : public PointForces<dim>
   {
   public:
     /**
@@ -26,7 +28,8 @@ namespace kedge
                   const std::vector<bool>                     &has_body_force,
                   const std::vector<PointLoadParameters<dim>> &point_loads,
                   const std::vector<TractionParameters<dim>>  &tractions,
-                  const std::map<std::string, double>         &constants);
+                  const std::map<std::string, double>         &constants,
+                  const LoadProgram                           &program = {});
 
     /**
      * Finds the points that carry loads among those just generated (all of
@@ -38,19 +41,18 @@ namespace kedge
     void
     attach(std::vector<GeneratedPoint<dim>> &points, const std::vector<std::string> &body_names);
 
-    /** True if there is no load at all: force() need not be called. */
+    /** True if there is no load at all: add_force() need not be called. */
     bool
-    empty() const;
+    empty() const override;
 
     /** The acceleration of the body force at time @p t [m/s^2]. */
     std::array<double, std::size_t(dim)>
     body_acceleration(const double t) const;
 
-    /** Force on each slot at time @p t [N]. */
     void
-    force(const StepPoints<dim>               &points,
-          const double                         t,
-          std::vector<dealii::Tensor<1, dim>> &forces) const;
+    add_force(const StepPoints<dim>               &points,
+              const double                         t,
+              std::vector<dealii::Tensor<1, dim>> &forces) const override;
 
   private:
     struct Share
@@ -75,6 +77,7 @@ namespace kedge
     std::map<std::string, double>                         constants;
     std::vector<std::array<Expression, std::size_t(dim)>> load_expressions;
     std::unordered_map<std::uint64_t, std::vector<Share>> shares; ///< by id of the point
+    LoadProgram                                           program;
   };
 } // namespace kedge
 

@@ -55,9 +55,12 @@ namespace kedge
     virtual LinearStatus
     solve_correction(double &norm, const bool keep_tangent) = 0;
 
-    /** u += factor * correction. */
+    /**
+     * Goes from u as it was at the last solve_correction() by @p factor times the
+     * correction; 0 goes back there.
+     */
     virtual void
-    apply_correction(const double factor) = 0;
+    retract(const double factor) = 0;
   };
 
   /**

@@ -1,8 +1,8 @@
 #ifndef kedge_transfer_audit_h
 #define kedge_transfer_audit_h
 
-#include <kedge/grid/active_nodes.h>
-#include <kedge/transfer/node_matrix.h>
+#include <kedge/fields/active_nodes.h>
+#include <kedge/equations/node_matrix.h>
 #include <kedge/transfer/parameters.h>
 
 namespace kedge
@@ -63,6 +63,10 @@ namespace kedge
     {
       return (points_np1 - points_n) - (grid_np1 - grid_n);
     }
+
+    /** Adds the audit of another field. */
+    TransferAudit &
+    operator+=(const TransferAudit &other);
   };
 
   /**

@@ -1,8 +1,8 @@
 #ifndef kedge_transfer_ghost_penalty_h
 #define kedge_transfer_ghost_penalty_h
 
-#include <kedge/grid/active_nodes.h>
-#include <kedge/transfer/node_matrix.h>
+#include <kedge/fields/active_nodes.h>
+#include <kedge/equations/node_matrix.h>
 
 namespace kedge
 {
@@ -124,17 +124,6 @@ namespace kedge
         NodeMatrix<dim>                                &matrix) const;
 
     std::vector<GhostFace> faces_;
-  };
-
-  /** The ghost terms of a step: matrices with one component and radius 2. */
-  template <int dim>
-  struct GhostMatrices
-  {
-    NodeMatrix<dim> stiffness;           ///< K_G (4.173), on each displacement [N/m]
-    NodeMatrix<dim> mass;                ///< M_G (4.172), on each acceleration; dynamic runs [kg]
-    NodeMatrix<dim> conductance;         ///< K_G^(f)/rho_0 (4.177), saturated bodies [m^3/(Pa s)]
-    NodeMatrix<dim> storage;             ///< M_G^(f)/rho_0 (4.176), saturated bodies [m^3/Pa]
-    bool            has_storage = false; ///< whether its factor is not 0
   };
 
   /** Smallest over largest row sum of a mass matrix [-] (collective). */

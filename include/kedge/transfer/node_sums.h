@@ -1,8 +1,8 @@
 #ifndef kedge_transfer_node_sums_h
 #define kedge_transfer_node_sums_h
 
-#include <kedge/grid/active_nodes.h>
-#include <kedge/transfer/node_matrix.h>
+#include <kedge/fields/active_nodes.h>
+#include <kedge/equations/node_matrix.h>
 
 namespace kedge
 {

@@ -1,9 +1,9 @@
 #ifndef kedge_transfer_velocity_mapping_h
 #define kedge_transfer_velocity_mapping_h
 
-#include <kedge/grid/node_conditions.h>
+#include <kedge/fields/node_conditions.h>
 #include <kedge/solvers/linear_solver.h>
-#include <kedge/transfer/equation_system.h>
+#include <kedge/equations/equation_system.h>
 #include <kedge/transfer/node_sums.h>
 #include <kedge/transfer/parameters.h>
 

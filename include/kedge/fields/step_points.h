@@ -1,0 +1,225 @@
+#ifndef kedge_fields_step_points_h
+#define kedge_fields_step_points_h
+
+#include <kedge/basis/stencil.h>
+#include <kedge/materials/history.h>
+#include <kedge/points/material_points.h>
+#include <kedge/stress/relative_stress.h>
+
+namespace kedge
+{
+  /**
+   * What a step needs of the material points, in contiguous arrays: slot k
+   * of every array is the same point. It is filled from the committed history
+   * at the start of a step and read-only until the step is accepted.
+   *
+   * Slots are ordered so that points of one kind (body, stencil pattern)
+   * stand together in a batch, and within a batch points with the same nodes
+   * one after the other. The order depends on the points' cells and on their
+   * order within a cell, on nothing else.
+   */
+  template <int dim>
+  struct StepPoints
+  {
+    /** Consecutive slots [begin, end) of one body and stencil pattern. */
+    struct Batch
+    {
+      unsigned int begin, end;
+      unsigned int body;
+      unsigned int pattern;
+    };
+
+    std::vector<Batch>                  batches;
+    std::vector<unsigned int>           local_number; ///< in the cloud's order
+    std::vector<std::uint64_t>          id;
+    std::vector<Stencil<dim>>           stencil;
+    std::vector<double>                 mass;         ///< [kg]
+    std::vector<double>                 volume;       ///< V0 [m^3]
+    std::vector<double>                 determinant;  ///< det F_n
+    std::vector<dealii::Point<dim>>     location;     ///< x_n [m]
+    std::vector<dealii::Tensor<1, dim>> velocity;     ///< [m/s]
+    std::vector<dealii::Tensor<1, dim>> acceleration; ///< [m/s^2]
+    std::vector<StressState<dim>>       stress_state;
+    std::vector<MaterialHistory>        history; ///< empty if no material has one
+    std::vector<unsigned int>           slot_of; ///< of each point in the cloud's order, or no_slot
+    unsigned int                        n_cells = 0; ///< cells with points
+    std::vector<unsigned int>           loaded;      ///< slots of the points that carry loads
+
+    /** Slot of the points of other fields' bodies. */
+    static constexpr unsigned int no_slot = static_cast<unsigned int>(-1);
+
+    /**
+     * Groups of the points of one body in one cell, of bodies whose points
+     * share their change of volume: each slot's group (no_group in other
+     * bodies; empty if there is no such body), and each group's cell.
+     */
+    static constexpr unsigned int no_group = static_cast<unsigned int>(-1);
+    std::vector<unsigned int>     group;
+    std::vector<unsigned int>     group_cell; ///< number in the window
+
+    /**
+     * Reads the cloud; @p basis_of_body says which stencil each body uses,
+     * @p with_history whether any material has a history, @p shared_volume
+     * whose points share their change of volume (empty: nobody's), @p members
+     * which bodies' points to take (empty: all).
+     */
+    void
+    reinit(const BackgroundGrid<dim>    &grid,
+           const MaterialPoints<dim>    &points,
+           const std::vector<BasisKind> &basis_of_body,
+           const bool                    with_history  = false,
+           const std::vector<bool>      &shared_volume = {},
+           const std::vector<bool>      &members       = {});
+
+    /** History of the point in a slot; of no use to a Material without one. */
+    template <class Material>
+    MaterialHistory
+    history_of(const unsigned int slot) const
+    {
+      if constexpr (Material::has_history)
+        return history[slot];
+      else
+        return {};
+    }
+
+    /** Whether the points of a batch share their change of volume. */
+    bool
+    is_grouped(const Batch &batch) const
+    {
+      return !group.empty() && group[batch.begin] != no_group;
+    }
+
+    unsigned int
+    size() const
+    {
+      return static_cast<unsigned int>(local_number.size());
+    }
+
+    /** Nodes of the window that have a basis function other than zero at some point. */
+    std::vector<unsigned char>
+    reached_nodes(const LatticeWindow<dim> &window) const;
+
+  private:
+    void
+    find_order(const BackgroundGrid<dim>       &grid,
+               const std::vector<unsigned int> &cell,
+               const std::vector<unsigned int> &body,
+               const std::vector<Stencil<dim>> &stencils,
+               const unsigned int               n_bodies);
+    void
+    find_groups(const BackgroundGrid<dim>       &grid,
+                const std::vector<unsigned int> &cell,
+                const std::vector<bool>         &shared_volume);
+  };
+
+  /** The stress state of a committed history. */
+  template <int dim>
+  StressState<dim>
+  make_stress_state(const PointState<dim> &state);
+
+  /**
+   * All basis functions of a stencil of a given pattern: N_A and dN_A/dx_d,
+   * nodes in lexicographic order, x fastest.
+   */
+  template <int dim, int n_nodes>
+  struct BasisValues
+  {
+    double value[n_nodes];
+    double gradient[dim][n_nodes]; ///< [1/m]
+  };
+
+  template <int dim, unsigned int pattern>
+  inline BasisValues<dim, stencil_size<dim>(pattern)>
+  expand(const Stencil<dim> &stencil)
+  {
+    constexpr int wx = stencil_width(pattern, 0), wy = stencil_width(pattern, 1);
+    BasisValues<dim, stencil_size<dim>(pattern)> basis;
+    if constexpr (dim == 2)
+      {
+        for (int j = 0; j < wy; ++j)
+          for (int i = 0; i < wx; ++i)
+            {
+              const int A          = i + wx * j;
+              basis.value[A]       = stencil.value[0][i] * stencil.value[1][j];
+              basis.gradient[0][A] = stencil.slope[0][i] * stencil.value[1][j];
+              basis.gradient[1][A] = stencil.value[0][i] * stencil.slope[1][j];
+            }
+      }
+    else
+      {
+        constexpr int wz = stencil_width(pattern, 2);
+        for (int k = 0; k < wz; ++k)
+          for (int j = 0; j < wy; ++j)
+            {
+              const double v_yz = stencil.value[1][j] * stencil.value[2][k];
+              const double y_yz = stencil.slope[1][j] * stencil.value[2][k];
+              const double z_yz = stencil.value[1][j] * stencil.slope[2][k];
+              for (int i = 0; i < wx; ++i)
+                {
+                  const int A          = i + wx * (j + wy * k);
+                  basis.value[A]       = stencil.value[0][i] * v_yz;
+                  basis.gradient[0][A] = stencil.slope[0][i] * v_yz;
+                  basis.gradient[1][A] = stencil.value[0][i] * y_yz;
+                  basis.gradient[2][A] = stencil.value[0][i] * z_yz;
+                }
+            }
+      }
+    return basis;
+  }
+
+  /** Window-number offsets of the nodes of a pattern from its first node. */
+  template <int dim, unsigned int pattern>
+  inline std::array<unsigned int, stencil_size<dim>(pattern)>
+  node_offsets(const std::array<int, dim> &strides)
+  {
+    std::array<unsigned int, stencil_size<dim>(pattern)> offsets;
+    int                                                  A = 0;
+    for (int k = 0; k < (dim == 3 ? stencil_width(pattern, 2) : 1); ++k)
+      for (int j = 0; j < stencil_width(pattern, 1); ++j)
+        for (int i = 0; i < stencil_width(pattern, 0); ++i)
+          {
+            unsigned int offset = i * strides[0] + j * strides[1];
+            if constexpr (dim == 3)
+              offset += k * strides[2];
+            offsets[A++] = offset;
+          }
+    return offsets;
+  }
+
+  /**
+   * Calls worker.template run<pattern>() with the pattern as a compile-time
+   * constant: once per batch.
+   */
+  template <int dim, typename Worker>
+  inline void
+  dispatch_pattern(const unsigned int pattern, Worker &&worker)
+  {
+    switch (pattern)
+      {
+        case 0:
+          return worker.template run<0>();
+        case 1:
+          return worker.template run<1>();
+        case 2:
+          return worker.template run<2>();
+        case 3:
+          return worker.template run<3>();
+        default:
+          break;
+      }
+    if constexpr (dim == 3)
+      switch (pattern)
+        {
+          case 4:
+            return worker.template run<4>();
+          case 5:
+            return worker.template run<5>();
+          case 6:
+            return worker.template run<6>();
+          default:
+            return worker.template run<7>();
+        }
+  }
+} // namespace kedge
+
+#endif

@@ -1,0 +1,86 @@
+#ifndef kedge_simulation_model_h
+#define kedge_simulation_model_h
+
+#include <kedge/scene/scene.h>
+#include <kedge/simulation/bodies.h>
+#include <kedge/simulation/field.h>
+#include <kedge/simulation/points_on_grid.h>
+#include <kedge/solid/ghost_term.h>
+#include <kedge/solid/load_term.h>
+
+namespace kedge
+{
+  /**
+   * What a scene is made of: the points on their grid, the fields, the terms of the
+   * balance, its unknowns and its books. It owns all of these and does nothing with
+   * them; Step and Run do. Fields and terms are chosen once, here, from the scene.
+   */
+  template <int dim>
+  class Model
+  {
+  public:
+    /**
+     * @param program when loads are evaluated, other than in a run
+     *
+     * @throws UserError for what the scene does not allow
+     */
+    Model(const Scene<dim> &scene, const MPI_Comm communicator, const LoadProgram &program = {});
+
+    /**
+     * Makes the bodies' points and the grid around them (collective).
+     *
+     * @throws UserError for bodies outside the grid, empty or overlapping
+     */
+    void
+    create_points();
+
+    /** The points as generated, with exposed faces, for probes; all ranks have all. */
+    const std::vector<PointOrigin<dim>> &
+    generated_points() const
+    {
+      return generated;
+    }
+
+    /** Frees what only the start-up needs. */
+    void
+    forget_generated_points();
+
+    /** Patches of all fields, in order. */
+    std::vector<const Patch<dim> *>
+    patches() const;
+
+    const Scene<dim>                         scene;
+    const MPI_Comm                           communicator;
+    const Scheme                             scheme;
+    const Bodies                             bodies;
+    PointsOnGrid<dim>                        points;
+    std::vector<std::unique_ptr<Field<dim>>> fields;
+    Terms<dim>                               terms;
+    Unknowns<dim>                            unknowns;
+    Ledger                                   ledger;
+    /** Part of the step at whose end prescribed pressures are taken. */
+    double pressure_fraction = 1.;
+
+  private:
+    void
+    make_fields(const LoadProgram &program);
+    void
+    choose_terms(const unsigned int field, const LoadProgram &program);
+    void
+    choose_porous_terms(const unsigned int    field,
+                        LoadTerm<dim>        &loads,
+                        const GhostTerm<dim> *ghosts,
+                        const LoadProgram    &program);
+    template <class T>
+    T &
+    add_term(std::unique_ptr<T> term);
+    void
+    declare();
+    void
+    check_overlaps() const;
+
+    std::vector<PointOrigin<dim>> generated;
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,127 @@
+#ifndef kedge_simulation_run_h
+#define kedge_simulation_run_h
+
+#include <kedge/base/exceptions.h>
+#include <kedge/io/audit_writer.h>
+#include <kedge/io/checkpoint.h>
+#include <kedge/io/grid_output.h>
+#include <kedge/io/history_writer.h>
+#include <kedge/io/newton_log.h>
+#include <kedge/io/points_output.h>
+#include <kedge/io/probe_writer.h>
+#include <kedge/io/progress.h>
+#include <kedge/io/run_folder.h>
+#include <kedge/io/signals.h>
+#include <kedge/io/summary.h>
+#include <kedge/simulation/step.h>
+#include <kedge/time_integration/clock.h>
+
+#include <filesystem>
+
+namespace kedge
+{
+  struct RunOptions
+  {
+    std::filesystem::path output;
+    bool                  resume = false;
+    bool                  strict = false; ///< a failed check makes the exit code 2
+  };
+
+  /** A whole run of a scene: the time loop with its books, output and checkpoints. */
+  template <int dim>
+  class Run
+  {
+  public:
+    /** @throws UserError for what the scene or the folder do not allow */
+    Run(const Scene<dim> &scene, const RunOptions &options, const MPI_Comm communicator);
+
+    /** Runs to the end (or the stop) and says how it ended. */
+    ExitCode
+    run();
+
+  private:
+    /** Counts of a run beside the books; part of every checkpoint. */
+    struct Counts
+    {
+      double        wall_before        = 0.; ///< of the runs that this one resumes [s]
+      double        points_times_steps = 0.;
+      std::uint64_t newton             = 0;
+      std::uint64_t linear             = 0;
+      std::uint64_t rejected           = 0;
+      std::uint64_t rejected_pending   = 0; ///< since the last accepted step
+      double        next_output_time   = 0.;
+    };
+
+    void
+    start_fresh();
+    void
+    resume();
+    void
+    open_output(const std::map<std::string, std::uint64_t> &positions);
+    void
+    set_step();
+    /** Commits an accepted step and writes what is due. */
+    void
+    finish_step(const StepReport &report);
+    void
+    fill_row();
+    /** Warns of the first point without pores; false if the run is to stop there. */
+    bool
+    watch_porosity();
+    bool
+    reject_step(const StepReport &report);
+    void
+    write_probes();
+    void
+    write_points(const bool force);
+    void
+    write_grid();
+    void
+    write_checkpoint();
+    void
+    write_checkpoint_if_due();
+    ExitCode
+    finish(const std::string &status, const std::string &reason);
+    RunSummary
+    make_summary(const std::string &status, const std::string &reason);
+
+    double
+    wall_time() const;
+    std::vector<Probe>
+    find_probes() const;
+
+    const RunOptions options;
+    const MPI_Comm   communicator;
+    const double     wall_start;
+    RunFolder        folder;
+    Model<dim>       model;
+    Step<dim>        step;
+    Clock            clock;
+    Counts           counts;
+    HistoryRow       row;
+    bool             porosity_is_lost = false;
+
+    std::unique_ptr<HistoryWriter>     history;
+    std::unique_ptr<ProbeWriter<dim>>  probes;
+    std::unique_ptr<PointsOutput<dim>> points_output;
+    std::unique_ptr<GridOutput<dim>>   grid_output;
+    std::unique_ptr<NewtonLog>         newton_log;
+    std::unique_ptr<AuditWriter<dim>>  audit_writer;
+    CheckpointStore<dim>               checkpoints;
+    Progress                           progress;
+    double                             last_checkpoint_wall = 0.;
+    std::uint64_t                      last_checkpoint_step = 0;
+    std::optional<std::uint64_t>       last_points_step; ///< step of the last output of points
+    PhaseTime                          output_time;
+  };
+
+  /**
+   * Builds the scene and prints what a run would start with: bodies, points,
+   * active cells, unknowns, first step, memory. Runs nothing, writes nothing.
+   */
+  template <int dim>
+  void
+  validate_scene(const Scene<dim> &scene, std::ostream &out, const MPI_Comm communicator);
+} // namespace kedge
+
+#endif

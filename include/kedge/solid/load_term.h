@@ -1,0 +1,83 @@
+#ifndef kedge_solid_load_term_h
+#define kedge_solid_load_term_h
+
+#include <kedge/equations/term.h>
+#include <kedge/solid/external_loads.h>
+#include <kedge/transfer/motion_term.h>
+
+namespace kedge
+{
+  /**
+   * The external forces on the points of a field, f_ext at the load time of the scheme. Books their
+   * work: that of their value in the middle of the step.
+   */
+  template <int dim>
+  class LoadTerm : public Term<dim>
+  {
+  public:
+    /** @param motion of the points, whose displacements the forces work on */
+    LoadTerm(const unsigned int              field,
+             const Patch<dim>               &patch,
+             const ExternalLoads<dim>       &loads,
+             const std::vector<std::string> &body_names,
+             const MotionTerm<dim>          &motion,
+             const Scheme                   &scheme);
+
+    /** Further forces on the points; they must last as long as this. */
+    void
+    add_forces(const PointForces<dim> &forces)
+    {
+      others.push_back(&forces);
+    }
+
+    const ExternalLoads<dim> &
+    external_loads() const
+    {
+      return loads;
+    }
+
+    std::string
+    name() const override
+    {
+      return "loads";
+    }
+
+    void
+    attach(std::vector<GeneratedPoint<dim>> &points) override;
+
+    void
+    declare_books(Ledger &ledger) override;
+
+    void
+    start(Trial<dim> &trial) override;
+
+    Answer
+    add_residual(const Trial<dim> &trial, Residual<dim> &residual) override;
+
+    void
+    add_residual_at_rest(const double t, Residual<dim> &residual) override;
+
+    void
+    book(const Trial<dim> &trial, const Residual<dim> &residual, Ledger &ledger) const override;
+
+  private:
+    bool
+    empty() const;
+    std::vector<dealii::Tensor<1, dim>>
+    forces_at(const double t) const;
+    std::vector<double>
+    at_nodes(const double t) const;
+
+    const unsigned int                    field;
+    const Patch<dim>                     &patch;
+    ExternalLoads<dim>                    loads;
+    const std::vector<std::string>        body_names;
+    const MotionTerm<dim>                &motion;
+    const Scheme                          scheme;
+    std::vector<const PointForces<dim> *> others;
+    std::vector<double>                   external_force; ///< at the owned nodes [N]
+    Ledger::Index                         work = 0;
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,92 @@
+#ifndef kedge_transfer_motion_transfer_h
+#define kedge_transfer_motion_transfer_h
+
+#include <kedge/equations/trial.h>
+#include <kedge/fields/patch.h>
+#include <kedge/transfer/audit.h>
+#include <kedge/transfer/velocity_mapping.h>
+
+#include <functional>
+#include <optional>
+
+namespace kedge
+{
+  /**
+   * The mappings of velocities (and accelerations, where the scheme carries them) between
+   * the points and the nodes of a field, and the mass (3.161) which they share with the inertia
+   * of the balance: one mass for both, or energy is not conserved. Of dynamic runs
+   * only.
+   */
+  template <int dim>
+  class MotionTransfer
+  {
+  public:
+    /** @param radius how far points couple nodes */
+    MotionTransfer(const unsigned int        field,
+                   const Patch<dim>         &patch,
+                   const TransferParameters &parameters,
+                   const Scheme             &scheme,
+                   const int                 radius);
+
+    /**
+     * Assembles the mass of a new configuration (collective).
+     *
+     * @param add adds what terms have to the mass of the mapping alone
+     */
+    void
+    reinit(const std::function<void(NodeMatrix<dim> &mass)> &add);
+
+    /** Effective mass M~ of (3.161), one component, this rank's share [kg]. */
+    const NodeMatrix<dim> &
+    mass() const
+    {
+      return effective_mass;
+    }
+
+    /** Point to grid: v_n and a_n of the trial (collective). */
+    LinearStatus
+    to_nodes(Trial<dim> &trial);
+
+    /** Grid to point: what the points' motion will be (collective). */
+    void
+    to_points(const Trial<dim> &trial);
+
+    /** Writes the motion of a point at the end of the step. */
+    void
+    update(const unsigned int slot, PointState<dim> &state) const;
+
+    /** Gives points at rest the accelerations of forces at the nodes [N] (collective). */
+    void
+    accelerate(const std::vector<double> &force, MaterialPoints<dim> &cloud);
+
+    /** What the mappings of the last step lost, if asked for. */
+    const std::optional<TransferAudit<dim>> &
+    audit() const
+    {
+      return audit_;
+    }
+
+  private:
+    LinearStatus
+    project(const std::vector<dealii::Tensor<1, dim>> &at_points, std::vector<double> &at_nodes);
+    const NodeMatrix<dim> &
+    mapping_mass() const
+    {
+      return has_own_mass ? mapped_mass : effective_mass;
+    }
+
+    const unsigned int                  field;
+    const Patch<dim>                   &patch;
+    const TransferParameters            parameters;
+    const Scheme                        scheme;
+    const int                           radius;
+    NodeMatrix<dim>                     effective_mass, mapped_mass;
+    bool                                has_own_mass = false; ///< terms have added to the mapping's
+    VelocityMapping<dim>                mapping;
+    std::vector<dealii::Tensor<1, dim>> velocities; ///< new ones, or with FLIP their changes
+    std::vector<dealii::Tensor<1, dim>> accelerations;
+    std::optional<TransferAudit<dim>>   audit_;
+  };
+} // namespace kedge
+
+#endif

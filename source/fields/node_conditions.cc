@@ -1,0 +1,155 @@
+#include <kedge/base/slope.h>
+#include <kedge/fields/node_conditions.h>
+
+namespace kedge
+{
+  namespace
+  {
+    const std::vector<std::string> coordinates = {"x", "y", "z"};
+  } // namespace
+
+
+
+  template <int dim>
+  NodeConditions<dim>::NodeConditions(const std::vector<NodeConditionParameters<dim>> &parameters,
+                                      const std::map<std::string, double>             &constants,
+                                      const LoadProgram                               &program)
+    : program(program)
+  {
+    for (const auto &p : parameters)
+      {
+        Condition condition;
+        condition.on_side = p.on_side;
+        condition.side    = p.side;
+        if (!p.on_side)
+          condition.where = Expression(p.where, coordinates, constants);
+        for (int d = 0; d < dim; ++d)
+          {
+            Motion &motion = condition.motions[d];
+            motion.kind    = p.components[d].kind;
+            if (motion.kind == ConditionKind::free || motion.kind == ConditionKind::fixed)
+              continue;
+            const bool at_place = motion.kind == ConditionKind::motion;
+            motion.expression =
+              Expression(p.components[d].expression,
+                         at_place ? motion_variables() : std::vector<std::string>{"t"},
+                         constants);
+            any_moving_ = true;
+            needs_place = needs_place || at_place;
+          }
+        if (!p.pore_pressure.empty())
+          {
+            condition.pressure = Expression(p.pore_pressure, {"x", "y", "z", "t"}, constants);
+            any_pressure = needs_place = true;
+          }
+        conditions.push_back(std::move(condition));
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  NodeConditions<dim>::applies(const Condition         &condition,
+                               const Lattice<dim>      &lattice,
+                               const LatticeIndex<dim> &node) const
+  {
+    if (condition.on_side)
+      {
+        const int direction = condition.side / 2;
+        return node[direction] == (condition.side % 2 == 0 ? 0 : lattice.n_cells[direction]);
+      }
+    const auto x    = lattice.node_position(node);
+    double     v[3] = {0, 0, 0};
+    for (int d = 0; d < dim; ++d)
+      v[d] = x[d];
+    return (*condition.where)(v) != 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  NodeConditions<dim>::reinit(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes)
+  {
+    condition_of.assign(std::size_t(nodes.n_local()) * dim, -1);
+    pressure_condition_of.assign(any_pressure ? nodes.n_local() : 0, -1);
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+        if (applies(conditions[c], grid.lattice(), grid.window().node_index(nodes.window_node(i))))
+          {
+            for (int d = 0; d < dim; ++d)
+              if (conditions[c].motions[d].kind != ConditionKind::free)
+                condition_of[std::size_t(i) * dim + d] = c;
+            if (conditions[c].pressure)
+              pressure_condition_of[i] = c;
+          }
+    if (!needs_place)
+      return;
+    place.resize(nodes.n_local());
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      place[i] = grid.lattice().node_position(grid.window().node_index(nodes.window_node(i)));
+  }
+
+
+
+  template <int dim>
+  double
+  NodeConditions<dim>::increment(const unsigned int node,
+                                 const int          d,
+                                 const double       t0,
+                                 const double       t1) const
+  {
+    const Motion &motion = conditions[condition_of[std::size_t(node) * dim + d]].motions[d];
+    switch (motion.kind)
+      {
+        case ConditionKind::displacement:
+          return (*motion.expression)({t1}) - (*motion.expression)({t0});
+        case ConditionKind::velocity:
+          return (*motion.expression)({0.5 * (t0 + t1)}) * (t1 - t0);
+        case ConditionKind::motion:
+          {
+            double x[3] = {0, 0, 0};
+            for (int e = 0; e < dim; ++e)
+              x[e] = place[node][e];
+            return (*motion.expression)({x[0], x[1], x[2], t0, t1 - t0});
+          }
+        default:
+          return 0.;
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  NodeConditions<dim>::velocity(const unsigned int node,
+                                const int          d,
+                                const double       t,
+                                const double       dt) const
+  {
+    const Motion &motion = conditions[condition_of[std::size_t(node) * dim + d]].motions[d];
+    if (motion.kind == ConditionKind::velocity)
+      return (*motion.expression)({t});
+    return slope_from_right(
+      [&](const double s) {
+        return s > 0. ? increment(node, d, t, t + s) : 0.;
+      },
+      dt);
+  }
+
+
+
+  template <int dim>
+  double
+  NodeConditions<dim>::pressure(const unsigned int node, const double t) const
+  {
+    double x[4] = {0, 0, 0, program.time(t)};
+    for (int d = 0; d < dim; ++d)
+      x[d] = place[node][d];
+    return (*conditions[pressure_condition_of[node]].pressure)({x[0], x[1], x[2], x[3]});
+  }
+
+  template class NodeConditions<2>;
+  template class NodeConditions<3>;
+} // namespace kedge

@@ -1,0 +1,438 @@
+#include <kedge/fields/node_ties.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Cells searched for a root, as distance in cells from the node. */
+    constexpr int nearest_ring = 2, farthest_ring = 4;
+
+    /**
+     * Volume of material at each node of the window, in cells; more than zero at
+     * every node that any rank reaches (collective).
+     */
+    template <int dim>
+    std::vector<double>
+    nodal_filling(const BackgroundGrid<dim>        &grid,
+                  const StepPoints<dim>            &points,
+                  const std::vector<unsigned char> &reached)
+    {
+      double cell_volume = 1.;
+      for (int d = 0; d < dim; ++d)
+        cell_volume *= grid.lattice().h[d];
+      std::vector<double> filling(grid.window().n_nodes_total(), 0.);
+      for (unsigned int node = 0; node < reached.size(); ++node)
+        if (reached[node])
+          filling[node] = std::numeric_limits<double>::min();
+      const auto strides = grid.window().node_strides();
+      for (unsigned int slot = 0; slot < points.size(); ++slot)
+        {
+          const Stencil<dim> &s      = points.stencil[slot];
+          const double        volume = points.volume[slot] * points.determinant[slot] / cell_volume;
+          for (int k = 0; k < (dim == 3 ? stencil_width(s.pattern, 2) : 1); ++k)
+            for (int j = 0; j < stencil_width(s.pattern, 1); ++j)
+              {
+                const double yz = volume * s.value[1][j] * (dim == 3 ? s.value[dim - 1][k] : 1.);
+                double      *row =
+                  &filling[s.first_node + j * strides[1] + (dim == 3 ? k * strides[dim - 1] : 0)];
+                for (int i = 0; i < stencil_width(s.pattern, 0); ++i)
+                  row[i] += yz * s.value[0][i];
+              }
+        }
+      if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+        MPI_Allreduce(MPI_IN_PLACE,
+                      filling.data(),
+                      static_cast<int>(filling.size()),
+                      MPI_DOUBLE,
+                      MPI_SUM,
+                      grid.communicator());
+      return filling;
+    }
+
+    /**
+     * Which bodies reach each node of the window: bit b modulo 64 for body b;
+     * empty if there is only one body (collective).
+     */
+    template <int dim>
+    std::vector<std::uint64_t>
+    bodies_at_nodes(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points)
+    {
+      unsigned int n_bodies = 0;
+      for (const auto &batch : points.batches)
+        n_bodies = std::max(n_bodies, batch.body + 1);
+      const bool many_ranks = dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1;
+      if (many_ranks)
+        n_bodies = dealii::Utilities::MPI::max(n_bodies, grid.communicator());
+      if (n_bodies < 2)
+        return {};
+      std::vector<std::uint64_t> bodies(grid.window().n_nodes_total(), 0);
+      const auto                 strides = grid.window().node_strides();
+      for (const auto &batch : points.batches)
+        for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+          for (int k = 0; k < (dim == 3 ? stencil_width(batch.pattern, 2) : 1); ++k)
+            for (int j = 0; j < stencil_width(batch.pattern, 1); ++j)
+              {
+                std::uint64_t *row = &bodies[points.stencil[slot].first_node + j * strides[1] +
+                                             (dim == 3 ? k * strides[dim - 1] : 0)];
+                for (int i = 0; i < stencil_width(batch.pattern, 0); ++i)
+                  row[i] |= std::uint64_t(1) << (batch.body % 64);
+              }
+      if (many_ranks)
+        MPI_Allreduce(MPI_IN_PLACE,
+                      bodies.data(),
+                      static_cast<int>(bodies.size()),
+                      MPI_UINT64_T,
+                      MPI_BOR,
+                      grid.communicator());
+      return bodies;
+    }
+
+    /** Calls visit(cell) for all cells, @p edge intervals wide, within @p ring cells of a node. */
+    template <int dim, typename Visit>
+    void
+    for_cells_around(const LatticeWindow<dim> &window,
+                     const LatticeIndex<dim>  &node,
+                     const int                 ring,
+                     const int                 edge,
+                     const Visit              &visit)
+    {
+      LatticeIndex<dim> offset;
+      offset.fill(-ring);
+      while (true)
+        {
+          LatticeIndex<dim> cell;
+          for (int d = 0; d < dim; ++d)
+            cell[d] = node[d] + edge * offset[d];
+          if (window.contains_cell(cell))
+            visit(cell);
+          int d = 0;
+          while (d < dim && ++offset[d] == ring)
+            offset[d++] = -ring;
+          if (d == dim)
+            return;
+        }
+    }
+
+    template <int dim>
+    unsigned int
+    corner(const LatticeWindow<dim> &window,
+           const LatticeIndex<dim>  &cell,
+           const unsigned int        v,
+           const int                 edge)
+    {
+      LatticeIndex<dim> node = cell;
+      for (int d = 0; d < dim; ++d)
+        node[d] += edge * static_cast<int>((v >> d) & 1u);
+      return window.node_number(node);
+    }
+
+    /** Calls visit(even node, weight) for those between which a node lies. */
+    template <int dim, typename Visit>
+    void
+    for_even_nodes(const LatticeWindow<dim> &window, const unsigned int node, const Visit &visit)
+    {
+      const auto here = window.node_index(node);
+      for (unsigned int v = 0; v < (1u << dim); ++v)
+        {
+          LatticeIndex<dim> even   = here;
+          double            weight = 1.;
+          for (int d = 0; d < dim; ++d)
+            {
+              const bool is_upper = ((v >> d) & 1u) != 0;
+              if (here[d] % 2 != 0)
+                {
+                  even[d] += is_upper ? 1 : -1;
+                  weight *= 0.5;
+                }
+              else if (is_upper)
+                weight = 0.;
+            }
+          if (weight > 0.)
+            visit(window.node_number(even), weight);
+        }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<LatticeIndex<dim>>
+  NodeTies<dim>::nearest_cells(const LatticeWindow<dim> &window,
+                               const Filling            &filling,
+                               const bool                of_same_body,
+                               const unsigned int        tied_node) const
+  {
+    const auto                     node = window.node_index(tied_node);
+    std::vector<LatticeIndex<dim>> nearest;
+    for (int ring = nearest_ring; ring <= farthest_ring && nearest.empty(); ++ring)
+      {
+        int best = std::numeric_limits<int>::max();
+        for_cells_around<dim>(window, node, ring, filling.edge, [&](const LatticeIndex<dim> &cell) {
+          int distance = 0; // four times the square of the distance to the centre
+          for (int d = 0; d < dim; ++d)
+            {
+              const int twice = 2 * (node[d] - cell[d]) / filling.edge - 1;
+              distance += twice * twice;
+            }
+          if (distance > best)
+            return;
+          std::uint64_t shared = of_same_body ? filling.bodies[tied_node] : 1;
+          for (unsigned int v = 0; v < (1u << dim); ++v)
+            {
+              const unsigned int root = corner<dim>(window, cell, v, filling.edge);
+              if (filling.volume[root] < filling.threshold)
+                return;
+              if (of_same_body)
+                shared &= filling.bodies[root];
+            }
+          if (shared == 0)
+            return;
+          if (distance < best)
+            nearest.clear();
+          best = distance;
+          nearest.push_back(cell);
+        });
+      }
+    return nearest;
+  }
+
+
+
+  template <int dim>
+  bool
+  NodeTies<dim>::tie_to_nearest_cell(const LatticeWindow<dim> &window,
+                                     const Filling            &filling,
+                                     Tie                      &tie) const
+  {
+    const auto node    = window.node_index(tie.node);
+    auto       nearest = nearest_cells(window, filling, !filling.bodies.empty(), tie.node);
+    if (nearest.empty() && !filling.bodies.empty()) // none that a body of this node fills
+      nearest = nearest_cells(window, filling, false, tie.node);
+    // cells at the same distance share the tie, so that symmetry is kept
+    std::map<unsigned int, double> weights;
+    for (const auto &cell : nearest)
+      for (unsigned int v = 0; v < (1u << dim); ++v)
+        {
+          double weight = 1. / static_cast<double>(nearest.size());
+          for (int d = 0; d < dim; ++d)
+            {
+              const double xi = (node[d] - cell[d]) / filling.edge;
+              weight *= (v >> d) & 1u ? xi : 1. - xi;
+            }
+          weights[corner<dim>(window, cell, v, filling.edge)] += weight;
+        }
+    for (const auto &[root, weight] : weights)
+      if (weight != 0.)
+        {
+          tie.roots.push_back(root);
+          tie.weights.push_back(weight);
+        }
+    return !nearest.empty();
+  }
+
+
+
+  /** Interpolates between even nodes and ties those with little around them to whole cells. */
+  template <int dim>
+  void
+  NodeTies<dim>::tie_pressures(const BackgroundGrid<dim>        &grid,
+                               const Filling                    &filling,
+                               const std::vector<unsigned char> &reached)
+  {
+    const auto        &window  = grid.window();
+    const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+    const unsigned int n_nodes = static_cast<unsigned int>(reached.size());
+    Filling            whole{std::vector<double>(n_nodes, 0.),
+                  std::vector<std::uint64_t>(filling.bodies.size(), 0),
+                  filling.threshold,
+                  2};
+    std::vector<bool>  used(n_nodes, false);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        if (filling.volume[node] == 0.)
+          continue;
+        const bool is_here = reached[node] || grid.node_owner(node) == rank;
+        Tie        tie{node, {}, {}, 1u << dim, true};
+        for_even_nodes<dim>(window, node, [&](const unsigned int even, const double weight) {
+          tie.roots.push_back(even);
+          tie.weights.push_back(weight);
+          whole.volume[even] += weight * filling.volume[node] / (1 << dim);
+          if (!filling.bodies.empty())
+            whole.bodies[even] |= filling.bodies[node];
+          if (is_here)
+            used[even] = true;
+        });
+        if (is_here && tie.roots.front() != node)
+          window_ties.push_back(std::move(tie));
+      }
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      if (whole.volume[node] > 0. && whole.volume[node] < filling.threshold &&
+          (used[node] || grid.node_owner(node) == rank))
+        {
+          Tie tie{node, {}, {}, 1u << dim};
+          if (tie_to_nearest_cell(window, whole, tie))
+            window_ties.push_back(std::move(tie));
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::find(const BackgroundGrid<dim>  &grid,
+                      const StepPoints<dim>      &points,
+                      const double                threshold,
+                      std::vector<unsigned char> &reached,
+                      const bool                  coarse_pressure)
+  {
+    const std::vector<Tie>  ties_before  = std::move(window_ties);
+    const std::vector<bool> moves_before = std::move(moves);
+    window_ties.clear();
+    moves.clear();
+    if (threshold > 0. || coarse_pressure)
+      {
+        const Filling      filling{nodal_filling(grid, points, reached),
+                              bodies_at_nodes(grid, points),
+                              threshold,
+                              1};
+        const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+        const unsigned int components = (1u << (coarse_pressure ? dim : dim + 1)) - 1;
+        // the owner of a tied node must know it too, even if none of its points reach it
+        for (unsigned int node = 0; node < reached.size(); ++node)
+          if (filling.volume[node] > 0. && filling.volume[node] < threshold &&
+              (reached[node] || grid.node_owner(node) == rank))
+            {
+              Tie tie{node, {}, {}, components};
+              if (tie_to_nearest_cell(grid.window(), filling, tie))
+                window_ties.push_back(std::move(tie));
+            }
+        if (coarse_pressure)
+          {
+            tie_pressures(grid, filling, reached);
+            moves.resize(reached.size());
+            for (unsigned int node = 0; node < reached.size(); ++node)
+              moves[node] = filling.volume[node] != 0.;
+          }
+        for (const Tie &tie : window_ties)
+          for (const unsigned int root : tie.roots)
+            reached[root] = 1;
+      }
+    changed_ = window_ties.size() != ties_before.size() || moves != moves_before;
+    for (unsigned int i = 0; i < window_ties.size() && !changed_; ++i)
+      changed_ = window_ties[i].node != ties_before[i].node ||
+                 window_ties[i].components != ties_before[i].components ||
+                 window_ties[i].roots != ties_before[i].roots;
+    if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      changed_ = dealii::Utilities::MPI::logical_or(changed_, grid.communicator());
+  }
+
+
+
+  /** Corners that no point reaches are there for the pressure: their displacement stays zero. */
+  template <int dim>
+  void
+  NodeTies<dim>::tie_corners_without_motion(const ActiveNodes<dim> &nodes)
+  {
+    for (unsigned int i = 0; i < nodes.n_local() && !moves.empty(); ++i)
+      if (!moves[nodes.window_node(i)])
+        {
+          tie_numbers[2 * std::size_t(i)] = static_cast<int>(local_ties.size());
+          local_ties.push_back({i, {}, {}, (1u << dim) - 1});
+        }
+  }
+
+
+
+  /** Puts the roots of tied corners in the place of the corners. */
+  template <int dim>
+  void
+  NodeTies<dim>::follow_tied_corners(Tie &tie) const
+  {
+    std::map<unsigned int, double> weights;
+    for (unsigned int k = 0; k < tie.roots.size(); ++k)
+      if (!is_tied(tie.roots[k], dim))
+        weights[tie.roots[k]] += tie.weights[k];
+      else
+        {
+          const Tie &corner = local_ties[tie_of(tie.roots[k], dim)];
+          for (unsigned int r = 0; r < corner.roots.size(); ++r)
+            weights[corner.roots[r]] += tie.weights[k] * corner.weights[r];
+        }
+    tie.roots.clear();
+    tie.weights.clear();
+    for (const auto &[root, weight] : weights)
+      {
+        tie.roots.push_back(root);
+        tie.weights.push_back(weight);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::localise(const ActiveNodes<dim> &nodes, const NodeConditions<dim> &conditions)
+  {
+    local_ties = window_ties;
+    tie_numbers.clear();
+    if (!local_ties.empty() || !moves.empty())
+      tie_numbers.assign(2 * std::size_t(nodes.n_local()), -1);
+    for (unsigned int i = 0; i < local_ties.size(); ++i)
+      {
+        Tie &tie = local_ties[i];
+        tie.node = nodes.local(tie.node);
+        for (unsigned int &root : tie.roots)
+          root = nodes.local(root);
+        if ((tie.components & 1u) != 0)
+          tie_numbers[2 * std::size_t(tie.node)] = static_cast<int>(i);
+        if (((tie.components >> dim) & 1u) != 0)
+          tie_numbers[2 * std::size_t(tie.node) + 1] = static_cast<int>(i);
+        for (int d = 0; d < dim; ++d)
+          if (conditions.prescribed(tie.node, d))
+            tie.components &= ~(1u << d);
+        if (!tie.interpolates && conditions.pressure_prescribed(tie.node))
+          tie.components &= ~(1u << dim);
+      }
+    for (Tie &tie : local_ties)
+      if (tie.interpolates)
+        follow_tied_corners(tie);
+    tie_corners_without_motion(nodes);
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::prolong(std::vector<double> &nodal, const unsigned int n_components) const
+  {
+    for (const Tie &tie : local_ties)
+      for (unsigned int d = 0; d < n_components; ++d)
+        if ((tie.components >> d) & 1u)
+          {
+            double value = 0.;
+            for (unsigned int k = 0; k < tie.roots.size(); ++k)
+              value += tie.weights[k] * nodal[std::size_t(tie.roots[k]) * n_components + d];
+            nodal[std::size_t(tie.node) * n_components + d] = value;
+          }
+  }
+
+
+
+  template <int dim>
+  void
+  NodeTies<dim>::restrict_sums(std::vector<double> &sums, const unsigned int n_components) const
+  {
+    for (const Tie &tie : local_ties)
+      for (unsigned int d = 0; d < n_components; ++d)
+        if ((tie.components >> d) & 1u)
+          {
+            double &value = sums[std::size_t(tie.node) * n_components + d];
+            for (unsigned int k = 0; k < tie.roots.size(); ++k)
+              sums[std::size_t(tie.roots[k]) * n_components + d] += tie.weights[k] * value;
+            value = 0.;
+          }
+  }
+
+  template class NodeTies<2>;
+  template class NodeTies<3>;
+} // namespace kedge

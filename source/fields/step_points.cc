@@ -1,0 +1,219 @@
+#include <kedge/fields/step_points.h>
+#include <kedge/stress/point_update.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Stable counting sort of the numbers in @p order by their @p key in [0, n_keys). */
+    void
+    sort_by_key(const std::vector<unsigned int> &key,
+                const unsigned int               n_keys,
+                std::vector<unsigned int>       &order)
+    {
+      std::vector<unsigned int> begin(n_keys + 1, 0);
+      for (const unsigned int k : key)
+        ++begin[k + 1];
+      for (unsigned int k = 0; k < n_keys; ++k)
+        begin[k + 1] += begin[k];
+      std::vector<unsigned int> sorted(order.size());
+      for (const unsigned int i : order)
+        sorted[begin[key[i]]++] = i;
+      order.swap(sorted);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StressState<dim>
+  make_stress_state(const PointState<dim> &state)
+  {
+    return make_stress_state<dim>(state.elastic_frame,
+                                  state.out_of_plane_elastic_stretch,
+                                  state.deformation_gradient,
+                                  state.kirchhoff_stress);
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::find_order(const BackgroundGrid<dim>       &grid,
+                              const std::vector<unsigned int> &cell,
+                              const std::vector<unsigned int> &body,
+                              const std::vector<Stencil<dim>> &stencils,
+                              const unsigned int               n_bodies)
+  {
+    const unsigned int n = cell.size();
+    local_number.resize(n);
+    for (unsigned int i = 0; i < n; ++i)
+      local_number[i] = i;
+
+    std::vector<unsigned int> key = cell;
+    sort_by_key(key, grid.window().n_cells_total(), local_number);
+    n_cells = 0;
+    for (unsigned int k = 0; k < n; ++k)
+      if (k == 0 || cell[local_number[k]] != cell[local_number[k - 1]])
+        ++n_cells;
+    for (unsigned int i = 0; i < n; ++i)
+      key[i] = stencils[i].first_node;
+    sort_by_key(key, grid.window().n_nodes_total(), local_number);
+    for (unsigned int i = 0; i < n; ++i)
+      key[i] = body[i] * n_stencil_patterns<dim> + stencils[i].pattern;
+    sort_by_key(key, n_bodies * n_stencil_patterns<dim>, local_number);
+
+    batches.clear();
+    for (unsigned int slot = 0; slot < n; ++slot)
+      {
+        const unsigned int i = local_number[slot];
+        if (batches.empty() || batches.back().body != body[i] ||
+            batches.back().pattern != stencils[i].pattern)
+          batches.push_back({slot, slot, body[i], stencils[i].pattern});
+        batches.back().end = slot + 1;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::find_groups(const BackgroundGrid<dim>       &grid,
+                               const std::vector<unsigned int> &cell,
+                               const std::vector<bool>         &shared_volume)
+  {
+    group.clear();
+    group_cell.clear();
+    if (std::find(shared_volume.begin(), shared_volume.end(), true) == shared_volume.end())
+      return;
+    group.assign(local_number.size(), no_group);
+    std::vector<unsigned int> group_in_cell;
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      {
+        const Batch &batch = batches[b];
+        if (!shared_volume[batch.body])
+          continue;
+        if (b == 0 || batches[b - 1].body != batch.body)
+          group_in_cell.assign(grid.window().n_cells_total(), no_group);
+        for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+          {
+            unsigned int &here = group_in_cell[cell[local_number[slot]]];
+            if (here == no_group)
+              {
+                here = group_cell.size();
+                group_cell.push_back(cell[local_number[slot]]);
+              }
+            group[slot] = here;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
+                          const MaterialPoints<dim>    &points,
+                          const std::vector<BasisKind> &basis_of_body,
+                          const bool                    with_history,
+                          const std::vector<bool>      &shared_volume,
+                          const std::vector<bool>      &members)
+  {
+    std::vector<unsigned int>            cell, body, number;
+    std::vector<Stencil<dim>>            stencils;
+    std::vector<dealii::Point<dim>>      locations;
+    std::vector<const PointState<dim> *> states;
+    std::vector<std::uint64_t>           ids;
+    cell.reserve(points.n_local());
+    body.reserve(points.n_local());
+    number.reserve(points.n_local());
+    stencils.reserve(points.n_local());
+    locations.reserve(points.n_local());
+    states.reserve(points.n_local());
+    ids.reserve(points.n_local());
+    points.for_each([&](const unsigned int        i,
+                        const std::uint64_t       point_id,
+                        const dealii::Point<dim> &x,
+                        const PointState<dim>    &state) {
+      const auto of_body = static_cast<unsigned int>(state.body);
+      if (!members.empty() && !members[of_body])
+        return;
+      number.push_back(i);
+      states.push_back(&state);
+      ids.push_back(point_id);
+      locations.push_back(x);
+      body.push_back(of_body);
+      cell.push_back(grid.window().cell_number(grid.lattice().cell_of(x)));
+      stencils.push_back(
+        make_stencil(basis_of_body[of_body], grid.lattice(), grid.window(), x, state.half_lengths));
+    });
+    const auto n = static_cast<unsigned int>(number.size());
+    find_order(grid, cell, body, stencils, basis_of_body.size());
+    find_groups(grid, cell, shared_volume);
+
+    stencil.resize(n);
+    mass.resize(n);
+    volume.resize(n);
+    location.resize(n);
+    determinant.resize(n);
+    velocity.resize(n);
+    acceleration.resize(n);
+    stress_state.resize(n);
+    history.resize(with_history ? n : 0);
+    slot_of.assign(points.n_local(), no_slot);
+    id.resize(n);
+    loaded.clear();
+    for (unsigned int slot = 0; slot < n; ++slot)
+      {
+        const unsigned int     i     = local_number[slot];
+        const PointState<dim> &state = *states[i];
+        slot_of[number[i]]           = slot;
+        local_number[slot]           = number[i];
+        id[slot]                     = ids[i];
+        if (state.loaded != 0.)
+          loaded.push_back(slot);
+        stencil[slot]      = stencils[i];
+        mass[slot]         = state.mass;
+        volume[slot]       = state.reference_volume;
+        location[slot]     = locations[i];
+        determinant[slot]  = dealii::determinant(state.deformation_gradient);
+        velocity[slot]     = state.velocity;
+        acceleration[slot] = state.acceleration;
+        stress_state[slot] = make_stress_state(state);
+        if (with_history)
+          history[slot] = {state.equivalent_plastic_strain,
+                           state.plastic_volume_strain,
+                           std::log(determinant[slot])};
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned char>
+  StepPoints<dim>::reached_nodes(const LatticeWindow<dim> &window) const
+  {
+    std::vector<unsigned char> reached(window.n_nodes_total(), 0);
+    const auto                 strides   = window.node_strides();
+    unsigned int               last_node = static_cast<unsigned int>(-1), last_pattern = 0;
+    for (const Stencil<dim> &s : stencil)
+      {
+        if (s.first_node == last_node && s.pattern == last_pattern)
+          continue;
+        last_node    = s.first_node;
+        last_pattern = s.pattern;
+        for (int k = 0; k < (dim == 3 ? stencil_width(s.pattern, 2) : 1); ++k)
+          for (int j = 0; j < stencil_width(s.pattern, 1); ++j)
+            for (int i = 0; i < stencil_width(s.pattern, 0); ++i)
+              reached[s.first_node + i + j * strides[1] + (dim == 3 ? k * strides[dim - 1] : 0)] =
+                1;
+      }
+    return reached;
+  }
+
+#define KEDGE_INSTANTIATE(dim)     \
+  template struct StepPoints<dim>; \
+  template StressState<dim> make_stress_state<dim>(const PointState<dim> &);
+  KEDGE_INSTANTIATE(2)
+  KEDGE_INSTANTIATE(3)
+} // namespace kedge

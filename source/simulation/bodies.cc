@@ -1,0 +1,117 @@
+#include <kedge/simulation/bodies.h>
+
+#include <algorithm>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Whether a contact keeps two bodies apart. */
+    bool
+    is_between(const ContactParameters &contact, const std::string &a, const std::string &b)
+    {
+      const auto holds = [](const std::vector<std::string> &group, const std::string &name) {
+        return std::find(group.begin(), group.end(), name) != group.end();
+      };
+      return (holds(contact.first, a) && holds(contact.second, b)) ||
+             (holds(contact.first, b) && holds(contact.second, a));
+    }
+
+    /** Each body takes the first field without a body that it may move apart from. */
+    void
+    find_fields(const std::vector<ContactParameters> &contacts, Bodies &bodies)
+    {
+      std::vector<std::vector<std::string>> members;
+      for (const std::string &name : bodies.names)
+        {
+          const auto fits = [&](const std::vector<std::string> &field) {
+            return std::none_of(field.begin(), field.end(), [&](const std::string &other) {
+              return std::any_of(contacts.begin(), contacts.end(), [&](const auto &contact) {
+                return is_between(contact, name, other);
+              });
+            });
+          };
+          auto found = std::find_if(members.begin(), members.end(), fits);
+          if (found == members.end())
+            found = members.insert(members.end(), std::vector<std::string>());
+          found->push_back(name);
+          bodies.field.push_back(static_cast<unsigned int>(found - members.begin()));
+        }
+      for (const auto &field : members)
+        bodies.field_names.push_back(field.front());
+    }
+  } // namespace
+
+
+
+  bool
+  Bodies::has_history() const
+  {
+    return std::any_of(materials.begin(), materials.end(), [](const Material &m) {
+      return kedge::has_history(m);
+    });
+  }
+
+
+
+  int
+  Bodies::stencil_radius() const
+  {
+    return std::all_of(bases.begin(),
+                       bases.end(),
+                       [](const BasisKind basis) {
+                         return basis == BasisKind::linear;
+                       })
+             ? 1
+             : 2;
+  }
+
+
+
+  int
+  Bodies::tangent_radius() const
+  {
+    for (std::size_t b = 0; b < bases.size(); ++b)
+      if (bases[b] == BasisKind::gimp && shared_volume[b])
+        return 3;
+    return stencil_radius();
+  }
+
+
+
+  template <int dim>
+  Bodies
+  read_bodies(const Scene<dim> &scene)
+  {
+    Bodies result;
+    for (const auto &body : scene.bodies)
+      {
+        const MaterialParameters &material = scene.materials[body.material];
+        result.names.push_back(body.name);
+        result.materials.push_back(make_material(material));
+        result.young_moduli.push_back(material.young_modulus);
+        result.densities.push_back(material.density);
+        result.bases.push_back(body.basis);
+        result.shared_volume.push_back(material.volume_change == VolumeChange::cell_mean);
+        // in saturated bodies the balance itself applies it, to a mass that changes
+        result.has_body_force.push_back(body.body_force && !scene.pore_fluid);
+        if (!scene.pore_fluid)
+          continue;
+        const double        G     = 0.5 * material.young_modulus / (1. + material.poisson_ratio);
+        PoreFluidParameters fluid = scene.pore_fluid->fluid;
+        fluid.initial_porosity    = material.initial_porosity;
+        result.soils.push_back({PoreFluid(fluid),
+                                material.density,
+                                0.5 * scene.pore_fluid->stabilisation / G,
+                                body.body_force});
+        result.initial_pore_pressure.push_back(body.initial_pore_pressure);
+      }
+    find_fields(scene.contacts, result);
+    return result;
+  }
+
+  template Bodies
+  read_bodies(const Scene<2> &);
+  template Bodies
+  read_bodies(const Scene<3> &);
+} // namespace kedge

@@ -1,0 +1,173 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/points/generation.h>
+#include <kedge/simulation/model.h>
+#include <kedge/solid/initial_stress.h>
+
+#include <sstream>
+
+namespace kedge
+{
+  template <int dim>
+  Model<dim>::Model(const Scene<dim>  &scene,
+                    const MPI_Comm     communicator,
+                    const LoadProgram &program)
+    : scene(scene)
+    , communicator(communicator)
+    , scheme(scene.time)
+    , bodies(read_bodies(scene))
+    , points(scene.grid, communicator)
+  {
+    make_fields(program);
+    for (unsigned int field = 0; field < fields.size(); ++field)
+      choose_terms(field, program);
+    declare();
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::make_fields(const LoadProgram &program)
+  {
+    const bool ghosts = scene.stabilisation.method == StabilisationKind::ghost;
+    const bool ties   = scene.stabilisation.method == StabilisationKind::aggregation;
+    const int  stencil_radius =
+      ghosts ? GhostTerm<dim>::radius : bodies.stencil_radius(); // of the widest body
+    const NodeConditions<dim> conditions(scene.node_conditions, scene.constants, program);
+
+    PatchParameters parameters;
+    parameters.body_names       = bodies.names;
+    parameters.basis_of_body    = bodies.bases;
+    parameters.shared_volume    = bodies.shared_volume;
+    parameters.with_history     = bodies.has_history();
+    parameters.smallest_filling = ties ? scene.stabilisation.smallest_filling : 0.;
+    parameters.coarse_pressure  = scene.pore_fluid && scene.pore_fluid->coarse_pressure;
+    parameters.n_components     = scene.pore_fluid ? dim + 1 : dim;
+    for (unsigned int f = 0; f < bodies.field_names.size(); ++f)
+      {
+        if (bodies.field_names.size() > 1)
+          {
+            parameters.holds_body.assign(bodies.names.size(), false);
+            for (std::size_t b = 0; b < bodies.names.size(); ++b)
+              parameters.holds_body[b] = bodies.field[b] == f;
+          }
+        fields.push_back(
+          std::make_unique<Field<dim>>(bodies.field_names[f],
+                                       points.grid(),
+                                       parameters,
+                                       conditions,
+                                       std::max(stencil_radius, bodies.tangent_radius())));
+        if (scheme.dynamic)
+          fields.back()->transfer = std::make_unique<MotionTransfer<dim>>(f,
+                                                                          fields.back()->patch,
+                                                                          scene.transfer,
+                                                                          scheme,
+                                                                          stencil_radius);
+      }
+    unknowns.fields.resize(fields.size());
+    unknowns.traits.space_dimension = dim;
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::declare()
+  {
+    for (auto &term : terms)
+      term->declare_unknowns(unknowns);
+    const std::size_t n_terms = terms.size() / fields.size(); // each field has the same ones
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      {
+        const bool is_part = fields.size() > 1;
+        if (is_part && k % n_terms == 0)
+          ledger.open_part(fields[k / n_terms]->name);
+        terms[k]->declare_books(ledger);
+        if (is_part && (k + 1) % n_terms == 0)
+          ledger.close_part();
+      }
+    ledger.declare_stored("total_energy", "J", Ledger::Section::work, "energy");
+    ledger.declare_error("energy_error", "J", Ledger::Section::work, "energy");
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::create_points()
+  {
+    GridParameters<dim> elements = scene.grid;
+    elements.node_intervals      = 1;
+    std::vector<GeneratedPoint<dim>> made;
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      {
+        auto of_body = generate_points(scene.bodies[b],
+                                       b,
+                                       bodies.densities[b],
+                                       Lattice<dim>(elements),
+                                       scene.constants,
+                                       made.size());
+        if (made.empty())
+          made = std::move(of_body);
+        else
+          made.insert(made.end(), of_body.begin(), of_body.end());
+      }
+    set_initial_stress(scene.bodies, bodies.materials, scene.constants, made);
+    for (auto &term : terms)
+      term->attach(made);
+
+    generated = std::vector<PointOrigin<dim>>(made.begin(), made.end());
+    check_overlaps();
+    std::vector<PointRecord<dim>> records;
+    records.reserve(made.size());
+    for (const auto &point : made)
+      records.push_back(point.record);
+    points.begin(std::move(records));
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::check_overlaps() const
+  {
+    for (const auto &point : generated)
+      for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+        {
+          if (b == point.body || bodies.field[b] != bodies.field[point.body] ||
+              !scene.bodies[b].geometry->contains(point.location))
+            continue;
+          std::ostringstream message;
+          message << "Bodies '" << scene.bodies[point.body].name << "' and '"
+                  << scene.bodies[b].name << "' overlap: a material point of the first, at ("
+                  << point.location << "), lies in the second. Change Bodies/"
+                  << scene.bodies[b].name << "/Geometry.";
+          throw UserError(message.str());
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::forget_generated_points()
+  {
+    generated.clear();
+    generated.shrink_to_fit();
+  }
+
+
+
+  template <int dim>
+  std::vector<const Patch<dim> *>
+  Model<dim>::patches() const
+  {
+    std::vector<const Patch<dim> *> result;
+    for (const auto &field : fields)
+      result.push_back(&field->patch);
+    return result;
+  }
+
+  template class Model<2>;
+  template class Model<3>;
+} // namespace kedge

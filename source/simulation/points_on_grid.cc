@@ -1,0 +1,120 @@
+#include <kedge/simulation/points_on_grid.h>
+
+namespace kedge
+{
+  template <int dim>
+  PointsOnGrid<dim>::PointsOnGrid(const GridParameters<dim> &parameters,
+                                  const MPI_Comm             communicator)
+    : communicator(communicator)
+    , background(parameters, communicator)
+  {}
+
+
+
+  template <int dim>
+  void
+  PointsOnGrid<dim>::begin(std::vector<PointRecord<dim>> records)
+  {
+    cover(records);
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+      records.clear();
+    cloud.distribute(background, std::move(records));
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOnGrid<dim>::replace(const std::vector<PointRecord<dim>> &records)
+  {
+    cover(records);
+    cloud.distribute(background, records);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOnGrid<dim>::restore(const std::vector<PointRecord<dim>> &records,
+                             const LatticeWindow<dim>            &covered_cells,
+                             const std::vector<unsigned int>     &covered_weights)
+  {
+    covered = covered_cells;
+    weights = covered_weights;
+    cloud.clear();
+    background.cover(covered, weights);
+    cloud.distribute(background, records);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOnGrid<dim>::cover(const std::vector<PointRecord<dim>> &records)
+  {
+    const auto       &lattice = background.lattice();
+    LatticeIndex<dim> low, high;
+    low.fill(std::numeric_limits<int>::max());
+    high.fill(std::numeric_limits<int>::min());
+    for (const auto &record : records)
+      {
+        const auto cell = lattice.cell_of(record.location);
+        for (int d = 0; d < dim; ++d)
+          {
+            low[d]  = std::min(low[d], cell[d]);
+            high[d] = std::max(high[d], cell[d]);
+          }
+      }
+    MPI_Allreduce(MPI_IN_PLACE, low.data(), dim, MPI_INT, MPI_MIN, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, high.data(), dim, MPI_INT, MPI_MAX, communicator);
+
+    covered.low = low;
+    for (int d = 0; d < dim; ++d)
+      covered.n_cells[d] = high[d] - low[d] + 1;
+    weights.clear();
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+      {
+        weights.assign(covered.n_cells_total(), 0);
+        for (const auto &record : records)
+          ++weights[covered.cell_number(lattice.cell_of(record.location))];
+        MPI_Allreduce(MPI_IN_PLACE,
+                      weights.data(),
+                      static_cast<int>(weights.size()),
+                      MPI_UNSIGNED,
+                      MPI_SUM,
+                      communicator);
+      }
+    cloud.clear();
+    background.cover(covered, weights);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOnGrid<dim>::follow()
+  {
+    bool close = false, outside = false;
+    cloud.for_each([&](const unsigned int,
+                       const std::uint64_t,
+                       const dealii::Point<dim> &x,
+                       const PointState<dim> &) {
+      const auto cell = background.lattice().cell_of(x);
+      close           = close || background.too_close_to_border(cell);
+      outside         = outside || !background.window().contains_cell(cell);
+    });
+    if (dealii::Utilities::MPI::logical_or(close || outside, communicator))
+      {
+        replace(cloud.records());
+        return;
+      }
+    const std::uint64_t missing = cloud.relocate(background);
+    AssertThrow(missing == 0,
+                dealii::ExcMessage(std::to_string(missing) +
+                                   " material points were lost while they were sorted into "
+                                   "the cells of the background grid."));
+  }
+
+  template class PointsOnGrid<2>;
+  template class PointsOnGrid<3>;
+} // namespace kedge

@@ -1,0 +1,312 @@
+#include <kedge/simulation/equilibrium.h>
+#include <kedge/simulation/run.h>
+
+#include <kedge/io/checks.h>
+#include <kedge/io/collective.h>
+#include <kedge/io/files.h>
+#include <kedge/io/versions.h>
+
+#include <iomanip>
+
+namespace kedge
+{
+  namespace
+  {
+    /** What the mappings of the last step lost, of all fields together. */
+    template <int dim>
+    TransferAudit<dim>
+    audit_of(const Model<dim> &model)
+    {
+      TransferAudit<dim> sum = *model.fields.front()->transfer->audit();
+      for (std::size_t f = 1; f < model.fields.size(); ++f)
+        sum += *model.fields[f]->transfer->audit();
+      return sum;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Run<dim>::Run(const Scene<dim> &scene, const RunOptions &options, const MPI_Comm communicator)
+    : options(options)
+    , communicator(communicator)
+    , wall_start(MPI_Wtime())
+    , folder(options.output,
+             options.resume ? RunFolder::Mode::resume : RunFolder::Mode::fresh,
+             communicator)
+    , model(scene, communicator)
+    , step(model)
+    , clock(scene.time)
+    , checkpoints(folder)
+    , progress(folder, scene.output.progress_interval, scene.time.start, scene.time.end)
+  {
+    std::vector<std::string> probe_names;
+    for (const auto &probe : scene.probes)
+      probe_names.push_back(probe.name);
+    verify_checks<dim>(scene.checks,
+                       history_columns(model.ledger.columns()),
+                       probe_names,
+                       scene.pore_fluid.has_value());
+
+    model.create_points();
+    if (options.resume)
+      resume();
+    else
+      start_fresh();
+    model.forget_generated_points();
+    run_on_root(communicator, [&] {
+      replace_file(folder.path("parameters.prm"), scene.parameters);
+    });
+  }
+
+
+
+  template <int dim>
+  double
+  Run<dim>::wall_time() const
+  {
+    return counts.wall_before + MPI_Wtime() - wall_start;
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::start_fresh()
+  {
+    open_output({});
+    const bool has_stage = model.scene.equilibrium.steps > 0;
+    if (has_stage)
+      {
+        model.points.replace(points_in_equilibrium(model.scene, communicator));
+        step.points_changed();
+      }
+    step.initialise_points(clock.time(), has_stage);
+    step.book_state();
+    model.ledger.set_start();
+    counts.next_output_time = clock.time();
+    row.time_step           = 0.;
+    fill_row();
+    history->write(row);
+    folder.log() << "kedge: " << (model.scene.title.empty() ? model.scene.name : model.scene.title)
+                 << "\n  " << row.n_points << " material points in "
+                 << static_cast<std::uint64_t>(model.ledger.value("n_active_cells")) << " cells, "
+                 << static_cast<std::uint64_t>(model.ledger.value("n_dofs")) << " unknowns, "
+                 << dealii::Utilities::MPI::n_mpi_processes(communicator) << " process(es)"
+                 << std::endl;
+    write_points(true);
+    write_grid();
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::set_step()
+  {
+    const TimeParameters &time = model.scene.time;
+    if (time.step_kind == StepSizeKind::fixed)
+      clock.set_nominal_step(time.step);
+    else
+      clock.set_nominal_step(time.cfl_factor * cfl_step(model, step, time.step_kind));
+  }
+
+
+
+  template <int dim>
+  ExitCode
+  Run<dim>::run()
+  {
+    const StopSignals signals(communicator);
+    while (!clock.finished())
+      {
+        set_step();
+        const StepReport report = step.attempt({clock.time(), clock.step_size()});
+        counts.newton += report.newton.iterations;
+        counts.linear += report.newton.linear_iterations;
+        if (!report.accepted)
+          {
+            if (!reject_step(report))
+              return finish("numerical_stop", report.cause);
+            continue;
+          }
+        finish_step(report);
+        if (!watch_porosity())
+          {
+            write_checkpoint();
+            return finish("numerical_stop", "a material point has lost its pores");
+          }
+        if (signals.stop_requested())
+          {
+            write_checkpoint();
+            return finish("interrupted", "a signal asked for it");
+          }
+        write_checkpoint_if_due();
+      }
+    return finish("finished", "");
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::finish_step(const StepReport &report)
+  {
+    row.time_step = clock.step_size();
+    step.commit();
+    clock.advance(report.newton.iterations);
+    row.newton_iterations = report.newton.iterations;
+    row.linear_iterations = report.newton.linear_iterations;
+    row.rejected_attempts = static_cast<unsigned int>(counts.rejected_pending);
+    fill_row();
+    counts.rejected_pending = 0;
+    counts.points_times_steps += static_cast<double>(row.n_points) * report.newton.iterations;
+
+    const Stopwatch stopwatch(output_time);
+    if (newton_log)
+      newton_log->write(row.step, row.time, true, report.newton);
+    if (audit_writer)
+      audit_writer->write(row.step, row.time, audit_of(model));
+    history->write(row);
+    write_probes();
+    write_points(false);
+    progress.report(row);
+  }
+
+
+
+  /** The books as they stand, of the step that the clock shows. */
+  template <int dim>
+  void
+  Run<dim>::fill_row()
+  {
+    row.step      = clock.n_steps();
+    row.time      = clock.time();
+    row.books     = model.ledger.values();
+    row.n_points  = static_cast<std::uint64_t>(model.ledger.value("n_points"));
+    row.wall_time = wall_time();
+  }
+
+
+
+  template <int dim>
+  bool
+  Run<dim>::watch_porosity()
+  {
+    const double lowest = model.ledger.value_or("min_porosity", 1.);
+    if (lowest > 0.)
+      return true;
+    if (!porosity_is_lost)
+      folder.log() << "  the porosity of a material point has fallen to " << lowest
+                   << " at t = " << row.time << " s, step " << row.step
+                   << ": its grains would overlap, which this skeleton does not see; from here on "
+                      "the answer is not one of a soil (Pore fluid/Lost porosity)"
+                   << std::endl;
+    porosity_is_lost = true;
+    return model.scene.pore_fluid->fluid.porosity_watch == PorosityWatch::warn;
+  }
+
+
+
+  template <int dim>
+  bool
+  Run<dim>::reject_step(const StepReport &report)
+  {
+    ++counts.rejected;
+    ++counts.rejected_pending;
+    if (newton_log)
+      newton_log->write(clock.n_steps() + 1, clock.next_time(), false, report.newton);
+    const double size = clock.step_size();
+    const bool   cut  = !report.hopeless && clock.cut_step();
+    folder.log() << "  step of " << size << " s at t = " << clock.time()
+                 << " s rejected: " << report.cause
+                 << (cut ? "; trying half of it"
+                         : (report.hopeless ? "" : "; the step is at its floor"))
+                 << std::endl;
+    return cut;
+  }
+
+
+
+  template <int dim>
+  RunSummary
+  Run<dim>::make_summary(const std::string &status, const std::string &reason)
+  {
+    RunSummary summary;
+    if (status == "finished")
+      summary.checks = evaluate_checks<dim>(model.scene.checks,
+                                            folder,
+                                            model.points.points().records(),
+                                            model.scene.constants);
+    summary.versions = software_versions();
+    summary.scene    = model.scene.name;
+    summary.title    = model.scene.title;
+    summary.status   = status;
+    summary.reason   = reason;
+    summary.dim      = dim;
+    summary.n_ranks  = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const auto count = [&](const std::string &column) {
+      return static_cast<std::uint64_t>(model.ledger.value(column));
+    };
+    summary.counts                     = {{"material_points", count("n_points")},
+                                          {"active_cells", count("n_active_cells")},
+                                          {"dofs", count("n_dofs")}};
+    summary.n_steps                    = clock.n_steps();
+    summary.n_newton_iterations        = counts.newton;
+    summary.n_linear_iterations        = counts.linear;
+    summary.n_rejected_attempts        = counts.rejected;
+    summary.largest_condition_estimate = step.equations().largest_condition();
+    summary.wall_seconds               = wall_time();
+    summary.cpu_seconds                = cpu_seconds(communicator);
+    auto   phases                      = step.phase_times();
+    double in_steps                    = 0.;
+    for (const auto &phase : phases)
+      in_steps += phase.second.wall;
+    phases["output"] = output_time;
+    for (const auto &[name, time] : phases)
+      {
+        summary.phase_wall_seconds[name] = time.wall;
+        summary.phase_cpu_seconds[name]  = dealii::Utilities::MPI::sum(time.cpu, communicator);
+      }
+    summary.peak_memory_bytes = peak_memory(communicator);
+    if (in_steps > 0.)
+      summary.point_updates_per_second = counts.points_times_steps / in_steps;
+    summary.columns   = model.ledger.columns();
+    summary.final_row = row;
+    return summary;
+  }
+
+
+
+  template <int dim>
+  ExitCode
+  Run<dim>::finish(const std::string &status, const std::string &reason)
+  {
+    const bool finished = status == "finished";
+    progress.finish(row);
+    if (finished)
+      write_points(true);
+    if (status == "numerical_stop" || (finished && model.scene.output.checkpoint_every_steps > 0))
+      write_checkpoint();
+    const RunSummary summary = make_summary(status, reason);
+    write_summary(folder, summary);
+
+    std::ostream &log = folder.log();
+    if (finished)
+      {
+        print_checks(summary.checks, log);
+        log << "kedge: finished at t = " << clock.time() << " s after " << clock.n_steps()
+            << " steps, " << counts.newton << " Newton iterations, " << std::setprecision(3)
+            << wall_time() << " s" << std::setprecision(6) << std::endl;
+        for (const auto &check : summary.checks)
+          if (!check.pass && options.strict)
+            return ExitCode::numerical_stop;
+        return ExitCode::finished;
+      }
+    log << "kedge: stopped at t = " << clock.time() << " s: " << reason << std::endl;
+    return status == "interrupted" ? ExitCode::interrupted : ExitCode::numerical_stop;
+  }
+
+  template class Run<2>;
+  template class Run<3>;
+} // namespace kedge

@@ -1,0 +1,320 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/simulation/run.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /**
+     * What must agree between a checkpoint and the scene that resumes it: all
+     * parameters but those of output, the end of the run, and what one changes
+     * to go on after a stop at the step floor.
+     */
+    std::string
+    physics_of(const std::string &parameters)
+    {
+      std::istringstream lines(parameters);
+      std::string        line, result;
+      bool               in_output = false;
+      while (std::getline(lines, line))
+        {
+          const auto first = line.find_first_not_of(' ');
+          if (first == std::string::npos || line[first] == '#')
+            continue;
+          const std::string word = line.substr(first);
+          if (word == "subsection Output" || word == "subsection Checks")
+            in_output = true;
+          bool may_change = in_output;
+          for (const char *name : {"End", "Title", "Step", "Smallest step factor", "Iterations"})
+            may_change = may_change || word.rfind("set " + std::string(name) + " ", 0) == 0;
+          if (!may_change)
+            result += word + "\n";
+          if (in_output && first == 0 && word == "end")
+            in_output = false;
+        }
+      return result;
+    }
+
+    /** Adds the cells of a field, all of whose nodes are active. */
+    template <int dim>
+    void
+    add_cells(const Patch<dim> &patch, GridSnapshot<dim> &snapshot)
+    {
+      const auto  first = static_cast<unsigned int>(snapshot.nodes.size());
+      const auto &nodes = patch.nodes;
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+        snapshot.nodes.push_back(patch.node_position(i));
+      for (unsigned int c = 0; c < patch.window().n_cells_total(); ++c)
+        {
+          const auto                           cell = patch.window().cell_index(c);
+          std::array<unsigned int, (1 << dim)> vertices;
+          bool                                 complete = true;
+          for (unsigned int v = 0; v < (1u << dim); ++v)
+            {
+              auto node = cell;
+              for (int d = 0; d < dim; ++d)
+                node[d] += (v >> d) & 1u;
+              const int local = nodes.local(patch.window().node_number(node));
+              complete        = complete && local >= 0;
+              vertices[v]     = first + static_cast<unsigned int>(local);
+            }
+          if (complete)
+            snapshot.cells.push_back(vertices);
+        }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<Probe>
+  Run<dim>::find_probes() const
+  {
+    std::vector<Probe> result;
+    for (const auto &parameters : model.scene.probes)
+      {
+        Probe  probe{parameters.name, {}};
+        double nearest = std::numeric_limits<double>::max();
+        for (const auto &point : model.generated_points())
+          {
+            if (!parameters.body.empty() && model.bodies.names[point.body] != parameters.body)
+              continue;
+            if (parameters.face_mean)
+              {
+                if ((point.exposed_sides >> parameters.side) & 1u)
+                  probe.points.emplace_back(point.id,
+                                            point.volume /
+                                              (2. * point.half_lengths[parameters.side / 2]));
+                continue;
+              }
+            const double distance = point.location.distance_square(parameters.place);
+            if (distance < nearest)
+              {
+                nearest      = distance;
+                probe.points = {{point.id, 1.}};
+              }
+          }
+        result.push_back(std::move(probe));
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::write_probes()
+  {
+    if (probes->empty())
+      return;
+    probes->begin();
+    model.points.points().for_each([&](const unsigned int,
+                                       const std::uint64_t       id,
+                                       const dealii::Point<dim> &location,
+                                       const PointState<dim>    &state) {
+      if (probes->tracks(id))
+        probes->add({id, location, state});
+    });
+    probes->end_row(clock.time());
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::write_points(const bool force)
+  {
+    const OutputParameters &output  = model.scene.output;
+    const bool              enabled = output.points_interval > 0. || output.points_every_steps > 0;
+    bool                    due     = force;
+    if (output.points_every_steps > 0 && clock.n_steps() % output.points_every_steps == 0)
+      due = true;
+    const double tolerance = 1e-9 * output.points_interval;
+    if (output.points_interval > 0. && clock.time() >= counts.next_output_time - tolerance)
+      due = true;
+    if (!enabled || !due || (!output.vtu && !output.hdf5))
+      return;
+    while (output.points_interval > 0. && counts.next_output_time <= clock.time() + tolerance)
+      counts.next_output_time += output.points_interval;
+    if (last_points_step && *last_points_step == clock.n_steps())
+      return;
+    last_points_step = clock.n_steps();
+    points_output->write(clock.time(), model.points.points().records());
+    write_grid();
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::write_grid()
+  {
+    if (!grid_output)
+      return;
+    step.activate();
+    GridSnapshot<dim> snapshot;
+    for (const auto &field : model.fields)
+      add_cells(field->patch, snapshot);
+    grid_output->write(clock.time(), snapshot);
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::write_checkpoint_if_due()
+  {
+    const OutputParameters &output = model.scene.output;
+    bool                    due =
+      output.checkpoint_every_steps > 0 && clock.n_steps() % output.checkpoint_every_steps == 0;
+    if (!due && output.checkpoint_interval > 0.)
+      due = dealii::Utilities::MPI::logical_or(wall_time() - last_checkpoint_wall >
+                                                 output.checkpoint_interval,
+                                               communicator);
+    if (due)
+      write_checkpoint();
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::write_checkpoint()
+  {
+    if (last_checkpoint_step == clock.n_steps())
+      return;
+    points_output->flush();
+    if (grid_output)
+      grid_output->flush();
+    CheckpointData<dim> data;
+    data.scene_fingerprint = fingerprint(physics_of(model.scene.parameters));
+    data.n_ranks           = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const auto state       = clock.state();
+    data.scalars           = {{"time", state.time},
+                              {"nominal_step", state.nominal},
+                              {"wall_time", wall_time()},
+                              {"points_times_steps", counts.points_times_steps},
+                              {"next_output_time", counts.next_output_time}};
+    for (const auto &[name, value] : model.ledger.save())
+      data.scalars["ledger " + name] = value;
+    data.counters       = {{"steps", state.n_steps},
+                           {"cuts", state.cuts},
+                           {"accepted_since_cut", state.accepted_since_cut},
+                           {"newton", counts.newton},
+                           {"linear", counts.linear},
+                           {"rejected", counts.rejected},
+                           {"rejected_pending", counts.rejected_pending},
+                           {"history_position", history->position()},
+                           {"probes_position", probes->position()},
+                           {"newton_position", newton_log ? newton_log->position() : 0},
+                           {"audit_position", audit_writer ? audit_writer->position() : 0},
+                           {"points_written", points_output->n_written()},
+                           {"last_points_step", last_points_step.value_or(0)},
+                           {"grid_written", grid_output ? grid_output->n_written() : 0}};
+    const auto &covered = model.points.covered_cells();
+    auto       &window  = data.arrays["covered_cells"];
+    for (int d = 0; d < dim; ++d)
+      {
+        window.push_back(covered.low[d]);
+        window.push_back(covered.n_cells[d]);
+      }
+    data.arrays["covered_weights"].assign(model.points.covered_weights().begin(),
+                                          model.points.covered_weights().end());
+    data.points = model.points.points().records();
+    checkpoints.write(data);
+    last_checkpoint_wall = wall_time();
+    last_checkpoint_step = clock.n_steps();
+  }
+
+
+
+  /** Opens the files of the run, at their ends or where a checkpoint has left them. */
+  template <int dim>
+  void
+  Run<dim>::open_output(const std::map<std::string, std::uint64_t> &positions)
+  {
+    const bool resumed  = !positions.empty();
+    const auto position = [&](const std::string &file) {
+      return resumed ? std::optional<std::uint64_t>(positions.at(file + "_position"))
+                     : std::optional<std::uint64_t>();
+    };
+    const auto n_written = [&](const std::string &what) {
+      return resumed ? static_cast<unsigned int>(positions.at(what + "_written")) : 0u;
+    };
+    const Scene<dim> &scene = model.scene;
+    history = std::make_unique<HistoryWriter>(folder, model.ledger.columns(), position("history"));
+    probes  = std::make_unique<ProbeWriter<dim>>(folder,
+                                                find_probes(),
+                                                position("probes"),
+                                                scene.pore_fluid.has_value());
+    points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output, n_written("points"));
+    if (scene.output.grid)
+      grid_output = std::make_unique<GridOutput<dim>>(folder, n_written("grid"));
+    if (scene.newton.log)
+      newton_log = std::make_unique<NewtonLog>(folder, position("newton"));
+    if (scene.transfer.audit && model.fields.front()->transfer)
+      audit_writer = std::make_unique<AuditWriter<dim>>(folder, position("audit"));
+  }
+
+
+
+  template <int dim>
+  void
+  Run<dim>::resume()
+  {
+    const CheckpointData<dim> data =
+      checkpoints.read_latest(fingerprint(physics_of(model.scene.parameters)));
+    LatticeWindow<dim> covered;
+    const auto        &window = data.arrays.at("covered_cells");
+    for (int d = 0; d < dim; ++d)
+      {
+        covered.low[d]     = static_cast<int>(window[2 * d]);
+        covered.n_cells[d] = static_cast<int>(window[2 * d + 1]);
+      }
+    const auto                     &weights = data.arrays.at("covered_weights");
+    const std::vector<unsigned int> points_per_cell(weights.begin(), weights.end());
+    model.points.restore(data.points, covered, points_per_cell);
+    step.points_changed();
+
+    clock.restore({data.scalars.at("time"),
+                   data.scalars.at("nominal_step"),
+                   data.counters.at("steps"),
+                   data.counters.at("cuts"),
+                   data.counters.at("accepted_since_cut")});
+    std::map<std::string, double> books;
+    for (const auto &[name, value] : data.scalars)
+      if (name.rfind("ledger ", 0) == 0)
+        books[name.substr(7)] = value;
+    counts.wall_before        = data.scalars.at("wall_time");
+    counts.points_times_steps = data.scalars.at("points_times_steps");
+    counts.next_output_time   = data.scalars.at("next_output_time");
+    counts.newton             = data.counters.at("newton");
+    counts.linear             = data.counters.at("linear");
+    counts.rejected           = data.counters.at("rejected");
+    counts.rejected_pending   = data.counters.at("rejected_pending");
+    last_checkpoint_step      = clock.n_steps();
+    last_checkpoint_wall      = wall_time();
+    if (data.counters.at("points_written") > 0)
+      last_points_step = data.counters.at("last_points_step");
+    open_output(data.counters);
+    step.book_state();
+    model.ledger.restore(books);
+    fill_row();
+    folder.log() << "kedge: goes on at t = " << clock.time() << " s, step " << clock.n_steps()
+                 << std::endl;
+  }
+
+
+
+#define KEDGE_INSTANTIATE(dim)                                                                     \
+  template std::vector<Probe> Run<dim>::find_probes() const;                                       \
+  template void               Run<dim>::write_probes();                                            \
+  template void               Run<dim>::write_points(const bool);                                  \
+  template void               Run<dim>::write_grid();                                              \
+  template void               Run<dim>::write_checkpoint();                                        \
+  template void               Run<dim>::write_checkpoint_if_due();                                 \
+  template void               Run<dim>::open_output(const std::map<std::string, std::uint64_t> &); \
+  template void               Run<dim>::resume();
+  KEDGE_INSTANTIATE(2)
+  KEDGE_INSTANTIATE(3)
+} // namespace kedge

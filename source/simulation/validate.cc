@@ -1,0 +1,54 @@
+#include <kedge/simulation/run.h>
+#include <kedge/stress/point_update.h>
+
+#include <cmath>
+
+namespace kedge
+{
+  template <int dim>
+  void
+  validate_scene(const Scene<dim> &scene, std::ostream &out, const MPI_Comm communicator)
+  {
+    Model<dim> model(scene, communicator);
+    model.create_points();
+    Step<dim> first(model);
+    first.book_state();
+    const double step = scene.time.step_kind == StepSizeKind::fixed
+                          ? scene.time.step
+                          : scene.time.cfl_factor * cfl_step(model, first, scene.time.step_kind);
+
+    std::vector<std::uint64_t> points_of_body(scene.bodies.size(), 0);
+    for (const auto &point : model.generated_points())
+      ++points_of_body[point.body];
+    const double memory   = peak_memory(communicator);
+    const auto   n_points = static_cast<std::uint64_t>(model.ledger.value("n_points"));
+    const auto   n_dofs   = static_cast<std::uint64_t>(model.ledger.value("n_dofs"));
+    const auto   n_cells  = static_cast<std::uint64_t>(model.ledger.value("n_active_cells"));
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+      return;
+    out << "scene:            " << (scene.title.empty() ? scene.name : scene.title) << "\n";
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      out << "body:             " << scene.bodies[b].name << ", " << points_of_body[b]
+          << " material points of " << scene.materials[scene.bodies[b].material].name << "\n";
+    // a block row of the tangent reaches 3^dim nodes, 5^dim with GIMP
+    const double per_point = sizeof(PointRecord<dim>) + sizeof(Stencil<dim>) +
+                             sizeof(StressState<dim>) + sizeof(PointUpdate<dim>) + 200.;
+    const double per_dof = 8. * dim * std::pow(5., dim) * 3.;
+    out << "material points:  " << n_points << "\n"
+        << "active cells:     " << n_cells << "\n"
+        << "unknowns:         " << n_dofs << "\n"
+        << "mass:             " << model.ledger.value("mass") << (dim == 2 ? " kg/m" : " kg")
+        << "\n"
+        << "first time step:  " << step << " s\n"
+        << "estimated memory: "
+        << std::ceil((memory + per_point * static_cast<double>(n_points) +
+                      per_dof * static_cast<double>(n_dofs)) /
+                     1e6)
+        << " MB" << std::endl;
+  }
+
+  template void
+  validate_scene(const Scene<2> &, std::ostream &, const MPI_Comm);
+  template void
+  validate_scene(const Scene<3> &, std::ostream &, const MPI_Comm);
+} // namespace kedge

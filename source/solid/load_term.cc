@@ -1,0 +1,139 @@
+#include <kedge/solid/load_term.h>
+#include <kedge/transfer/node_sums.h>
+
+namespace kedge
+{
+  template <int dim>
+  LoadTerm<dim>::LoadTerm(const unsigned int              field,
+                          const Patch<dim>               &patch,
+                          const ExternalLoads<dim>       &loads,
+                          const std::vector<std::string> &body_names,
+                          const MotionTerm<dim>          &motion,
+                          const Scheme                   &scheme)
+    : field(field)
+    , patch(patch)
+    , loads(loads)
+    , body_names(body_names)
+    , motion(motion)
+    , scheme(scheme)
+  {}
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &points)
+  {
+    loads.attach(points, body_names);
+  }
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::declare_books(Ledger &ledger)
+  {
+    work = ledger.declare({"external_work",
+                           "J",
+                           Ledger::Section::work,
+                           Ledger::Kind::total,
+                           Ledger::Role::supplied,
+                           "energy"});
+  }
+
+
+
+  template <int dim>
+  bool
+  LoadTerm<dim>::empty() const
+  {
+    return loads.empty() && std::all_of(others.begin(), others.end(), [](const auto *forces) {
+             return forces->empty();
+           });
+  }
+
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  LoadTerm<dim>::forces_at(const double t) const
+  {
+    std::vector<dealii::Tensor<1, dim>> forces(patch.points.size());
+    loads.add_force(patch.points, t, forces);
+    for (const auto *other : others)
+      other->add_force(patch.points, t, forces);
+    return forces;
+  }
+
+
+
+  /** The forces at the nodes, dim values each, complete at the owned ones. */
+  template <int dim>
+  std::vector<double>
+  LoadTerm<dim>::at_nodes(const double t) const
+  {
+    std::vector<double>       sums(std::size_t(patch.nodes.n_local()) * dim, 0.);
+    const std::vector<double> ones(patch.points.size(), 1.);
+    add_to_nodes(patch.points, patch.window(), patch.nodes, ones, forces_at(t), sums);
+    patch.ties.restrict_sums(sums);
+    patch.nodes.add_to_owners(sums, dim);
+    return sums;
+  }
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::start(Trial<dim> &trial)
+  {
+    external_force.clear();
+    if (!empty())
+      external_force = at_nodes(scheme.load_time(trial.times.t_n, trial.times.dt));
+  }
+
+
+
+  template <int dim>
+  Answer
+  LoadTerm<dim>::add_residual(const Trial<dim> &, Residual<dim> &residual)
+  {
+    if (external_force.empty())
+      return {};
+    std::vector<double> &sums         = residual.complete(field);
+    const std::size_t    n_components = patch.n_components();
+    for (std::size_t i = 0; i < patch.nodes.n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        sums[i * n_components + d] = -external_force[i * dim + d];
+    return {};
+  }
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::add_residual_at_rest(const double t, Residual<dim> &residual)
+  {
+    if (empty())
+      return;
+    external_force = at_nodes(t);
+    add_residual({}, residual);
+  }
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  {
+    if (empty())
+      return;
+    double     sum    = 0.;
+    const auto forces = forces_at(trial.times.t_n + 0.5 * trial.times.dt);
+    for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
+      sum += forces[slot] * motion.displacements()[slot];
+    ledger.book(work, sum);
+  }
+
+  template class LoadTerm<2>;
+  template class LoadTerm<3>;
+} // namespace kedge

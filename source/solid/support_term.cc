@@ -1,0 +1,65 @@
+#include <kedge/solid/support_term.h>
+
+namespace kedge
+{
+  template <int dim>
+  SupportTerm<dim>::SupportTerm(const unsigned int                               field,
+                                const Patch<dim>                                &patch,
+                                const std::vector<NodeConditionParameters<dim>> &conditions)
+    : field(field)
+    , patch(patch)
+    , conditions(conditions)
+  {}
+
+
+
+  template <int dim>
+  void
+  SupportTerm<dim>::declare_books(Ledger &ledger)
+  {
+    work = ledger.declare({"external_work",
+                           "J",
+                           Ledger::Section::work,
+                           Ledger::Kind::total,
+                           Ledger::Role::supplied,
+                           "energy"});
+    reactions.assign(conditions.size() * dim, 0);
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      for (int d = 0; d < dim && conditions[c].reaction; ++d)
+        reactions[c * dim + d] = ledger.declare({"reaction_" + conditions[c].name + "_" + "xyz"[d],
+                                                 "N",
+                                                 Ledger::Section::force,
+                                                 Ledger::Kind::of_step});
+  }
+
+
+
+  template <int dim>
+  void
+  SupportTerm<dim>::book(const Trial<dim>    &trial,
+                         const Residual<dim> &residual,
+                         Ledger              &ledger) const
+  {
+    const auto         &force        = residual.of_field(field);
+    const auto         &displacement = trial.displacement(field);
+    const unsigned int  n_components = patch.n_components();
+    std::vector<double> forces(conditions.size() * dim, 0.);
+    double              sum = 0.;
+    for (unsigned int i = 0; i < patch.nodes.n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (patch.conditions.prescribed(i, d))
+          {
+            const double f = force[std::size_t(i) * n_components + d];
+            forces[patch.conditions.condition(i, d) * dim + d] += f;
+            sum += f * displacement[std::size_t(i) * dim + d];
+          }
+    if (patch.conditions.any_moving())
+      ledger.book(work, sum);
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      for (int d = 0; d < dim && conditions[c].reaction; ++d)
+        ledger.book(reactions[c * dim + d], forces[c * dim + d]);
+  }
+
+  template class SupportTerm<2>;
+  template class SupportTerm<3>;
+} // namespace kedge

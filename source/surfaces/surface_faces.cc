@@ -1,0 +1,98 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/surfaces/surface_faces.h>
+
+#include <algorithm>
+
+namespace kedge
+{
+  template <int dim>
+  SurfaceFaces<dim>::SurfaceFaces(const std::string                    &what,
+                                  const std::vector<SurfaceParameters> &parameters,
+                                  const std::map<std::string, double>  &constants)
+    : what(what)
+    , parameters(parameters)
+    , constants(constants)
+  {}
+
+
+
+  template <int dim>
+  void
+  SurfaceFaces<dim>::attach(std::vector<GeneratedPoint<dim>> &points,
+                            const std::vector<std::string>   &body_names)
+  {
+    faces_of.clear();
+    for (unsigned int s = 0; s < parameters.size(); ++s)
+      {
+        const auto  &p         = parameters[s];
+        const int    direction = static_cast<int>(p.side / 2);
+        const double sign      = p.side % 2 == 0 ? -1. : 1.;
+        const auto   where =
+          p.where.empty() ? Expression(1.) : Expression(p.where, {"x", "y", "z"}, constants);
+        bool any = false;
+        for (auto &point : points)
+          {
+            PointState<dim> &state = point.record.state;
+            if (body_names[static_cast<unsigned int>(state.body)] != p.body ||
+                ((point.exposed_sides >> p.side) & 1u) == 0)
+              continue;
+            // the face's centre decides, as with tractions
+            const double half = state.reference_half_lengths[direction];
+            double       x[3] = {0, 0, 0};
+            for (int d = 0; d < dim; ++d)
+              x[d] = point.record.location[d];
+            x[direction] += sign * half;
+            if (where(x) == 0.)
+              continue;
+            faces_of[point.record.id].push_back(
+              {s, state.reference_volume / (2. * half), sign * half});
+            state.loaded = 1.;
+            any          = true;
+          }
+        if (!any && !(where.is_constant() && where.value() == 0.)) // Where = 0 switches it off
+          throw UserError(what + " '" + p.name +
+                          "' finds no exposed face: no material point of body '" + p.body +
+                          "' on the given side fulfils Where.");
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceFaces<dim>::reinit(const MaterialPoints<dim> &cloud, const StepPoints<dim> &points)
+  {
+    faces.clear();
+    if (empty())
+      return;
+    cloud.for_each([&](const unsigned int  number,
+                       const std::uint64_t id,
+                       const dealii::Point<dim> &,
+                       const PointState<dim> &state) {
+      if (state.loaded == 0. || points.slot_of[number] == StepPoints<dim>::no_slot)
+        return;
+      const auto found = faces_of.find(id);
+      if (found == faces_of.end())
+        return;
+      const dealii::Tensor<2, dim> &F        = state.deformation_gradient;
+      const dealii::Tensor<2, dim>  cofactor = determinant(F) * transpose(invert(F));
+      for (const Face &face : found->second)
+        {
+          const int         d = static_cast<int>(parameters[face.surface].side / 2);
+          SurfacePoint<dim> point{points.slot_of[number], face.surface, {}, {}};
+          for (int i = 0; i < dim; ++i)
+            {
+              point.offset[i] = F[i][d] * face.offset;
+              point.area[i]   = cofactor[i][d] * std::copysign(face.area, face.offset);
+            }
+          faces.push_back(point);
+        }
+    });
+    std::stable_sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
+      return a.slot < b.slot;
+    });
+  }
+
+  template class SurfaceFaces<2>;
+  template class SurfaceFaces<3>;
+} // namespace kedge

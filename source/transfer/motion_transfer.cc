@@ -1,0 +1,148 @@
+#include <kedge/transfer/motion_transfer.h>
+
+namespace kedge
+{
+  template <int dim>
+  MotionTransfer<dim>::MotionTransfer(const unsigned int        field,
+                                      const Patch<dim>         &patch,
+                                      const TransferParameters &parameters,
+                                      const Scheme             &scheme,
+                                      const int                 radius)
+    : field(field)
+    , patch(patch)
+    , parameters(parameters)
+    , scheme(scheme)
+    , radius(radius)
+  {}
+
+
+
+  template <int dim>
+  void
+  MotionTransfer<dim>::reinit(const std::function<void(NodeMatrix<dim> &)> &add)
+  {
+    if (patch.new_nodes())
+      effective_mass.reinit(patch.nodes.n_local(), 1, radius);
+    assemble_mass(patch.points, patch.window(), patch.nodes, effective_mass);
+    blend_mass(parameters.lumping, effective_mass, patch.nodes.n_local());
+    has_own_mass = static_cast<bool>(add);
+    if (has_own_mass)
+      {
+        mapped_mass = effective_mass;
+        add(mapped_mass);
+      }
+    mapping.reinit(patch.grid(),
+                   patch.nodes,
+                   patch.conditions,
+                   patch.ties,
+                   mapping_mass(),
+                   patch.new_pattern());
+  }
+
+
+
+  template <int dim>
+  LinearStatus
+  MotionTransfer<dim>::project(const std::vector<dealii::Tensor<1, dim>> &at_points,
+                               std::vector<double>                       &at_nodes)
+  {
+    std::vector<double> momentum(at_nodes.size(), 0.);
+    add_to_nodes(patch.points, patch.window(), patch.nodes, patch.points.mass, at_points, momentum);
+    patch.ties.restrict_sums(momentum);
+    patch.nodes.add_to_owners(momentum, dim);
+    return mapping.solve(patch.grid(), patch.nodes, patch.ties, mapping_mass(), momentum, at_nodes);
+  }
+
+
+
+  template <int dim>
+  LinearStatus
+  MotionTransfer<dim>::to_nodes(Trial<dim> &trial)
+  {
+    auto             &motion = trial.motion[field];
+    const std::size_t size   = std::size_t(patch.nodes.n_local()) * dim;
+    motion.velocity_n.assign(size, 0.);
+    motion.acceleration_n.assign(size, 0.);
+    patch.constraints.prescribe_velocity(trial.times.t_n, trial.times.dt, motion.velocity_n);
+    LinearStatus status = project(patch.points.velocity, motion.velocity_n);
+    if (status.success && scheme.carries_acceleration)
+      status = project(patch.points.acceleration, motion.acceleration_n);
+    return status;
+  }
+
+
+
+  template <int dim>
+  void
+  MotionTransfer<dim>::to_points(const Trial<dim> &trial)
+  {
+    const bool                flip   = parameters.velocity_mapping == VelocityUpdate::flip;
+    const auto               &motion = trial.motion[field];
+    const std::vector<double> v_end  = trial.end_velocity(scheme, field);
+    std::vector<double>       change(v_end.size());
+    for (std::size_t i = 0; i < v_end.size(); ++i)
+      change[i] = v_end[i] - motion.velocity_n[i];
+    interpolate_to_points(patch.points,
+                          patch.window(),
+                          patch.nodes,
+                          flip ? change : v_end,
+                          velocities);
+    if (scheme.carries_acceleration)
+      interpolate_to_points(patch.points,
+                            patch.window(),
+                            patch.nodes,
+                            trial.end_acceleration(scheme, field),
+                            accelerations);
+    if (!parameters.audit)
+      return;
+    auto new_velocities = velocities;
+    if (flip)
+      for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
+        new_velocities[slot] += patch.points.velocity[slot];
+    audit_ = audit_transfer(patch.grid(),
+                            patch.nodes,
+                            patch.points,
+                            new_velocities,
+                            effective_mass,
+                            parameters.lumping,
+                            parameters.velocity_mapping,
+                            motion.velocity_n,
+                            v_end,
+                            trial.displacement(field));
+  }
+
+
+
+  template <int dim>
+  void
+  MotionTransfer<dim>::update(const unsigned int slot, PointState<dim> &state) const
+  {
+    if (parameters.velocity_mapping == VelocityUpdate::flip)
+      state.velocity += velocities[slot];
+    else
+      state.velocity = velocities[slot];
+    if (scheme.carries_acceleration)
+      state.acceleration = accelerations[slot];
+  }
+
+
+
+  template <int dim>
+  void
+  MotionTransfer<dim>::accelerate(const std::vector<double> &force, MaterialPoints<dim> &cloud)
+  {
+    std::vector<double> at_nodes(std::size_t(patch.nodes.n_local()) * dim, 0.);
+    const LinearStatus  status =
+      mapping.solve(patch.grid(), patch.nodes, patch.ties, mapping_mass(), force, at_nodes);
+    AssertThrow(status.success, dealii::ExcMessage("mass matrix: " + status.cause));
+    interpolate_to_points(patch.points, patch.window(), patch.nodes, at_nodes, accelerations);
+    cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
+      const unsigned int slot = patch.points.slot_of[number];
+      if (slot != StepPoints<dim>::no_slot)
+        state.acceleration = accelerations[slot];
+    });
+  }
+
+  template class MotionTransfer<2>;
+  template class MotionTransfer<3>;
+} // namespace kedge
