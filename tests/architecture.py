@@ -19,14 +19,17 @@ MAY_INCLUDE = {
     "solvers": set(),
     "time_integration": set(),
     "grid": set(),
-    "points": {"grid"},
+    # closed surfaces of triangles, which know no body, no grid
+    "geometry": set(),
+    # the inside of a closed surface is one of the shapes of a body
+    "points": {"grid", "geometry"},
     "basis": {"grid", "points"},
     # pointwise laws: they know a material and a committed state, no grid
     "stress": {"materials"},
     # sums between points and nodes; the consistent mass must be solved for
     "transfer": {"basis", "grid", "points", "materials", "stress", "solvers"},
 }
-PHYSICS = MAY_INCLUDE["transfer"] | {"transfer", "materials", "time_integration"}
+PHYSICS = MAY_INCLUDE["transfer"] | {"transfer", "materials", "time_integration", "geometry"}
 MAY_INCLUDE["solid"] = PHYSICS
 # the skeleton of a soil is a solid: its loads, its balance as a step sees it
 MAY_INCLUDE["porous"] = PHYSICS | {"solid"}
