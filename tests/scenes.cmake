@@ -262,6 +262,16 @@ kedge_add_scene_test(refusal.stl_file prm/wedge.prm
 kedge_add_scene_test(refusal.height_field prm/cut_bodies.prm
   SET "Bodies/ground/Geometry = below(0.4 + y)" EXPECT_EXIT 1
   EXPECT_STDERR "Bodies/ground/Geometry.*\"y\"" LABELS refusal)
+kedge_add_scene_test(refusal.far_point_load prm/cantilever_static.prm
+  SET "Point loads/end load/Place = 50, 50" EXPECT_EXIT 1
+  EXPECT_STDERR "Point load 'end load' is to act at \\(50 50\\), [0-9.]+ m from" LABELS refusal)
+kedge_add_scene_test(refusal.far_probe prm/translating_body.prm
+  SET "Probes/centre/Place = 100, 2" EXPECT_EXIT 1
+  EXPECT_STDERR "Probe 'centre' is to act at.*98.* m from" LABELS refusal)
+kedge_add_scene_test(refusal.condition_without_nodes prm/cut_bodies.prm
+  SET "Node conditions/floor/Side = " "Node conditions/floor/Where = y == 0.1" EXPECT_EXIT 1
+  EXPECT_STDERR "Node conditions/floor/Where = y == 0.1: it is true at none of the grid's nodes"
+  LABELS refusal)
 kedge_add_refusal_test(same_points "'other block'.*'block'|'block'.*'other block'")
 kedge_add_scene_test(refusal.deformed_path prm/paths/simple_shear.prm
   OPTIONS --drive SET "Path/Deformation gradient = 2, 0, 0; 0, 1, 0; 0, 0, 1"

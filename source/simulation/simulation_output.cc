@@ -1,4 +1,6 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
+#include <kedge/points/volume_report.h>
 #include <kedge/simulation/simulation.h>
 
 namespace kedge
@@ -45,8 +47,9 @@ namespace kedge
     std::vector<Probe> result;
     for (const auto &parameters : scene.probes)
       {
-        Probe  probe{parameters.name, {}};
-        double nearest = std::numeric_limits<double>::max();
+        Probe                   probe{parameters.name, {}};
+        double                  nearest       = std::numeric_limits<double>::max();
+        const PointOrigin<dim> *nearest_point = nullptr;
         for (const auto &point : engine.generated_points())
           {
             if (!parameters.body.empty() && scene.bodies[point.body].name != parameters.body)
@@ -62,10 +65,16 @@ namespace kedge
             const double distance = point.location.distance_square(parameters.place);
             if (distance < nearest)
               {
-                nearest      = distance;
-                probe.points = {{point.id, 1.}};
+                nearest       = distance;
+                nearest_point = &point;
+                probe.points  = {{point.id, 1.}};
               }
           }
+        if (nearest_point != nullptr)
+          check_nearness<dim>("Probe '" + parameters.name + "'",
+                              parameters.place,
+                              nearest_point->location,
+                              nearest_point->half_lengths);
         result.push_back(std::move(probe));
       }
     return result;
@@ -314,6 +323,13 @@ namespace kedge
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       out << "body:             " << scene.bodies[b].name << ", " << points_of_body[b]
           << " material points of " << scene.materials[scene.bodies[b].material].name << "\n";
+    for (const auto &name : idle_node_conditions(scene.node_conditions,
+                                                 scene.constants,
+                                                 engine.grid().lattice(),
+                                                 engine.generated_points()))
+      out << "note:             Node conditions/" << name
+          << " holds no node of a cell with material points\n";
+    write_volumes(out, scene.bodies, engine.grid().lattice(), engine.generated_points());
     // a block row of the tangent reaches 3^dim nodes, 5^dim with GIMP
     const double per_point = sizeof(PointRecord<dim>) + sizeof(Stencil<dim>) +
                              sizeof(StressState<dim>) + sizeof(PointUpdate<dim>) + 200.;

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
 #include <kedge/simulation/step_engine.h>
 #include <kedge/solid/initial_stress.h>
 
@@ -8,6 +9,7 @@ namespace kedge
   void
   StepEngine<dim>::create_points()
   {
+    check_node_conditions(scene.node_conditions, scene.constants, background.lattice());
     std::vector<PointRecord<dim>> records = generate_records();
     covered                               = {};
     weights.clear();
