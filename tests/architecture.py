@@ -19,13 +19,16 @@ MAY_INCLUDE = {
     "solvers": set(),
     "time_integration": set(),
     "grid": set(),
-    "points": {"grid"},
+    # closed surfaces of triangles, which know no body, no grid
+    "geometry": set(),
+    # the inside of a closed surface is one of the shapes of a body
+    "points": {"grid", "geometry"},
     "basis": {"grid", "points"},
     # pointwise laws: they know a material and a committed state, no grid
     "stress": {"materials"},
 }
 # bodies that move as one on the grid: their points, nodes and constraints
-MAY_INCLUDE["fields"] = {"basis", "grid", "points", "materials", "stress"}
+MAY_INCLUDE["fields"] = {"basis", "geometry", "grid", "points", "materials", "stress"}
 # what a step solves, and what a part of it must say of itself
 MAY_INCLUDE["equations"] = MAY_INCLUDE["fields"] | {"fields", "solvers", "time_integration"}
 # between points and nodes; the consistent mass must be solved for

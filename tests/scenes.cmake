@@ -39,6 +39,9 @@ kedge_add_scene_test(scene.small_cuts.gimp prm/small_cuts.prm
   SET "Bodies/square/Basis = gimp" "Constants/shift = 3/8")
 kedge_add_scene_test(scene.small_cuts.aggregation prm/small_cuts.prm
   SET "Stabilisation/Method = aggregation")
+# bodies off the grid's lines weigh what their shapes weigh
+kedge_add_scene_test(scene.cut_bodies prm/cut_bodies.prm COMPARE_RANKS 1e-9)
+kedge_add_scene_test(scene.wedge prm/wedge.prm COMPARE_RANKS 1e-9)
 kedge_add_scene_test(scene.translating_body.linear prm/translating_body.prm
   SET "Bodies/disc/Basis = linear")
 # two fields on one grid: each body by itself
@@ -253,6 +256,30 @@ kedge_add_refusal_test(negative_density
 kedge_add_refusal_test(empty_body "Body 'block' got no material point")
 kedge_add_refusal_test(outside_grid
   "outside_grid\\.prm:19: Bodies/block/Geometry = .*from 3\\.5 to 4\\.5 in direction x, the grid only from 0 to 4")
+kedge_add_scene_test(refusal.polygon prm/cut_bodies.prm
+  SET "Bodies/polygon/Geometry = polygon(1, 2; 2, 3; 2, 2; 1, 3)" EXPECT_EXIT 1
+  EXPECT_STDERR "cuts itself: the edge from corner 1 to corner 2 meets the edge from corner 3"
+  LABELS refusal)
+kedge_add_scene_test(refusal.stl_in_millimetres prm/wedge.prm
+  SET "Bodies/wedge/Geometry = stl(wedge.stl)" EXPECT_EXIT 1
+  EXPECT_STDERR "reaches from 0 to 400 in direction x.*in millimetres, its scale is 0.001"
+  LABELS refusal)
+kedge_add_scene_test(refusal.stl_file prm/wedge.prm
+  SET "Bodies/wedge/Geometry = stl(wege.stl; 0.001)" EXPECT_EXIT 1
+  EXPECT_STDERR "Bodies/wedge/Geometry.*wege.stl' cannot be read" LABELS refusal)
+kedge_add_scene_test(refusal.height_field prm/cut_bodies.prm
+  SET "Bodies/ground/Geometry = below(0.4 + y)" EXPECT_EXIT 1
+  EXPECT_STDERR "Bodies/ground/Geometry.*\"y\"" LABELS refusal)
+kedge_add_scene_test(refusal.far_point_load prm/cantilever_static.prm
+  SET "Point loads/end load/Place = 50, 50" EXPECT_EXIT 1
+  EXPECT_STDERR "Point load 'end load' is to act at \\(50 50\\), [0-9.]+ m from" LABELS refusal)
+kedge_add_scene_test(refusal.far_probe prm/translating_body.prm
+  SET "Probes/centre/Place = 100, 2" EXPECT_EXIT 1
+  EXPECT_STDERR "Probe 'centre' is to act at.*98.* m from" LABELS refusal)
+kedge_add_scene_test(refusal.condition_without_nodes prm/cut_bodies.prm
+  SET "Node conditions/floor/Side = " "Node conditions/floor/Where = y == 0.1" EXPECT_EXIT 1
+  EXPECT_STDERR "Node conditions/floor/Where = y == 0.1: it is true at none of the grid's nodes"
+  LABELS refusal)
 kedge_add_refusal_test(same_points "'other block'.*'block'|'block'.*'other block'")
 kedge_add_scene_test(refusal.deformed_path prm/paths/simple_shear.prm
   OPTIONS --drive SET "Path/Deformation gradient = 2, 0, 0; 0, 1, 0; 0, 0, 1"

@@ -1,10 +1,17 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/clipped_moments.h>
 #include <kedge/points/generation.h>
 
 namespace kedge
 {
   namespace
   {
+    /** What differs from a whole or an empty sub-cell by less than this part is one. */
+    constexpr double rounding_tolerance = 1e-9;
+
+    /** Smaller parts of a sub-cell join a neighbour. */
+    constexpr double smallest_part = 0.1;
+
     /** Integer box of sub-cells [low, high) that may hold points of a body. */
     template <int dim>
     struct SubCells
@@ -24,6 +31,24 @@ namespace kedge
             x[d] = lattice.origin[d] + (cell + (within + 0.5) / per_cell[d]) * lattice.h[d];
           }
         return x;
+      }
+
+      dealii::Tensor<1, dim>
+      half_lengths() const
+      {
+        dealii::Tensor<1, dim> half;
+        for (int d = 0; d < dim; ++d)
+          half[d] = 0.5 * (lattice.h[d] / per_cell[d]);
+        return half;
+      }
+
+      double
+      volume() const
+      {
+        double volume = 1;
+        for (int d = 0; d < dim; ++d)
+          volume *= lattice.h[d] / per_cell[d];
+        return volume;
       }
 
       /** Number of a sub-cell of the box or of the layer of sub-cells around it. */
@@ -102,10 +127,160 @@ namespace kedge
       return sub_cells;
     }
 
+    /** What of a body lies in a sub-cell: a material point, or a part of one. */
+    template <int dim>
+    struct Piece
+    {
+      LatticeIndex<dim>  sub;
+      bool               whole;       ///< it fills its sub-cell and nothing joined it
+      double             part;        ///< of the sub-cell's volume
+      VolumeMoments<dim> moments;     ///< about the sub-cell's centre
+      int                joined = -1; ///< the piece it joined
+    };
+
+    /** The pieces of a body and which of them lies in which sub-cell. */
+    template <int dim>
+    struct Pieces
+    {
+      std::vector<Piece<dim>> list;
+      std::vector<int>        of_key; ///< by SubCells::key; -1: empty
+    };
+
+    template <int dim>
+    std::optional<Piece<dim>>
+    clipped_piece(const Geometry<dim>     &geometry,
+                  const SubCells<dim>     &sub_cells,
+                  const LatticeIndex<dim> &sub)
+    {
+      const dealii::Tensor<1, dim>   half   = sub_cells.half_lengths();
+      const dealii::Point<dim>       centre = sub_cells.centre(sub);
+      const dealii::BoundingBox<dim> box({centre - half, centre + half});
+      const Filling                  filling = geometry.filling(box);
+      if (filling == Filling::empty)
+        return std::nullopt;
+      const auto whole = VolumeMoments<dim>::of_box(half);
+      Piece<dim> piece{sub, true, 1., whole};
+      if (filling == Filling::full)
+        return piece;
+      const VolumeMoments<dim> moments = clipped_moments(geometry, box);
+      piece.part                       = moments.volume / whole.volume;
+      if (piece.part < rounding_tolerance)
+        return std::nullopt;
+      if (piece.part > 1. - rounding_tolerance)
+        return Piece<dim>{sub, true, 1., whole};
+      piece.whole   = false;
+      piece.moments = moments;
+      return piece;
+    }
+
+    template <int dim>
+    Pieces<dim>
+    find_pieces(const BodyParameters<dim> &body, const SubCells<dim> &sub_cells)
+    {
+      const auto  whole = VolumeMoments<dim>::of_box(sub_cells.half_lengths());
+      Pieces<dim> pieces;
+      pieces.of_key.assign(sub_cells.n_keys(), -1);
+      sub_cells.for_each([&](const LatticeIndex<dim> &sub) {
+        std::optional<Piece<dim>> piece;
+        if (body.clip)
+          piece = clipped_piece<dim>(*body.geometry, sub_cells, sub);
+        else if (body.geometry->contains(sub_cells.centre(sub)))
+          piece = Piece<dim>{sub, true, 1., whole};
+        if (!piece)
+          return;
+        pieces.of_key[sub_cells.key(sub)] = static_cast<int>(pieces.list.size());
+        pieces.list.push_back(*piece);
+      });
+      return pieces;
+    }
+
+    /**
+     * Among the neighbours of a small piece the one that it joins: with a common
+     * face if there is any, then the largest. -1 if all are small.
+     */
+    template <int dim>
+    int
+    neighbour_to_join(const Pieces<dim>   &pieces,
+                      const SubCells<dim> &sub_cells,
+                      const Piece<dim>    &small)
+    {
+      int          best       = -1;
+      double       best_score = 0;
+      unsigned int n          = 1;
+      for (int d = 0; d < dim; ++d)
+        n *= 3;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          LatticeIndex<dim> sub   = small.sub;
+          int               steps = 0;
+          bool              known = true;
+          for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= 3)
+            {
+              const int step = static_cast<int>(rest % 3) - 1;
+              sub[d] += step;
+              steps += std::abs(step);
+              known = known && sub[d] >= sub_cells.low[d] - 1 && sub[d] <= sub_cells.high[d];
+            }
+          const int other = known ? pieces.of_key[sub_cells.key(sub)] : -1;
+          if (steps == 0 || other < 0 || pieces.list[other].part < smallest_part)
+            continue;
+          const double score = pieces.list[other].part + 2. * (dim - steps);
+          if (score > best_score)
+            {
+              best       = other;
+              best_score = score;
+            }
+        }
+      return best;
+    }
+
+    /** Volume and first moment stay: no material point weighs next to nothing. */
+    template <int dim>
+    void
+    join_small_pieces(Pieces<dim> &pieces, const SubCells<dim> &sub_cells)
+    {
+      for (auto &piece : pieces.list)
+        {
+          if (piece.part >= smallest_part)
+            continue;
+          piece.joined = neighbour_to_join(pieces, sub_cells, piece);
+          if (piece.joined < 0)
+            continue;
+          Piece<dim>            &other = pieces.list[piece.joined];
+          dealii::Tensor<1, dim> shift;
+          for (int d = 0; d < dim; ++d)
+            shift[d] = (other.sub[d] - piece.sub[d]) * 2. * sub_cells.half_lengths()[d];
+          other.moments.add(piece.moments.about(shift));
+          other.whole = false;
+        }
+    }
+
+    /**
+     * Half edges of the box that stands for a piece, a GIMP domain: its volume is that
+     * of the piece, its edges are as the radii of gyration of the piece about its
+     * centre. A piece that is itself a box gets this box, so that its faces lie on the
+     * body's surface.
+     */
+    template <int dim>
+    dealii::Tensor<1, dim>
+    domain_of(const VolumeMoments<dim> &moments)
+    {
+      const VolumeMoments<dim> central = moments.about(moments.centre());
+      dealii::Tensor<1, dim>   half;
+      double                   volume = 1;
+      for (int d = 0; d < dim; ++d)
+        {
+          half[d] = std::sqrt(3. * central.second[d][d] / central.volume);
+          volume *= 2. * half[d];
+        }
+      return std::pow(central.volume / volume, 1. / dim) * half;
+    }
+
     template <int dim>
     PointState<dim>
-    state_at_rest(const SubCells<dim>                            &sub_cells,
-                  const dealii::Point<dim>                       &x,
+    state_at_rest(const dealii::Point<dim>                       &x,
+                  const dealii::Tensor<1, dim>                   &half_lengths,
+                  const double                                    volume,
                   const unsigned int                              body_index,
                   const double                                    density,
                   const std::array<Expression, std::size_t(dim)> &velocity)
@@ -113,15 +288,13 @@ namespace kedge
       PointState<dim> state;
       std::fill_n(reinterpret_cast<double *>(&state), n_state_values<dim>, 0.);
       state.body             = body_index;
-      state.reference_volume = 1.;
+      state.reference_volume = volume;
       double coordinates[3]  = {0, 0, 0};
       for (int d = 0; d < dim; ++d)
         {
           coordinates[d]                  = x[d];
-          const double length             = sub_cells.lattice.h[d] / sub_cells.per_cell[d];
-          state.reference_half_lengths[d] = state.half_lengths[d] = 0.5 * length;
-          state.reference_volume *= length;
-          state.reference_position[d]      = x[d];
+          state.reference_half_lengths[d] = state.half_lengths[d] = half_lengths[d];
+          state.reference_position[d]                             = x[d];
           state.deformation_gradient[d][d] = state.elastic_frame[d][d] = 1.;
         }
       state.out_of_plane_elastic_stretch = 1.;
@@ -148,39 +321,51 @@ namespace kedge
       velocity[d] = Expression(body.initial_velocity[d], {"x", "y", "z"}, constants);
 
     const SubCells<dim> sub_cells = sub_cells_of(body, lattice);
-    std::vector<bool>   filled(sub_cells.n_keys(), false);
-    std::size_t         n_points = 0;
-    sub_cells.for_each([&](const LatticeIndex<dim> &sub) {
-      if (!body.geometry->contains(sub_cells.centre(sub)))
-        return;
-      filled[sub_cells.key(sub)] = true;
-      ++n_points;
-    });
-    if (n_points == 0)
-      throw UserError("Body '" + body.name +
-                      "' got no material point: its geometry contains no centre of the grid's "
-                      "sub-cells. Refine the grid (Grid/Cells) or use more points per cell "
-                      "(Bodies/" +
-                      body.name + "/Points per cell).");
+    Pieces<dim>         pieces    = find_pieces(body, sub_cells);
+    if (pieces.list.empty())
+      throw UserError("Body '" + body.name + "' got no material point: its geometry contains no " +
+                      (body.clip ? "part of the grid's cells"
+                                 : "centre of the grid's sub-cells. Refine the grid (Grid/Cells) "
+                                   "or use more points per cell (Bodies/" +
+                                     body.name + "/Points per cell)") +
+                      ".");
+    join_small_pieces(pieces, sub_cells);
 
+    const double                     whole_volume = sub_cells.volume();
+    std::vector<int>                 point_of(pieces.list.size(), -1);
     std::vector<GeneratedPoint<dim>> points;
-    points.reserve(n_points);
-    sub_cells.for_each([&](const LatticeIndex<dim> &sub) {
-      if (!filled[sub_cells.key(sub)])
-        return;
-      const auto x = sub_cells.centre(sub);
-      points.push_back({{first_id + points.size(),
-                         x,
-                         state_at_rest<dim>(sub_cells, x, body_index, density, velocity)},
-                        0u});
-      for (int side = 0; side < 2 * dim; ++side)
-        {
-          LatticeIndex<dim> neighbour = sub;
-          neighbour[side / 2] += side % 2 == 0 ? -1 : 1;
-          if (!filled[sub_cells.key(neighbour)])
-            points.back().exposed_sides |= 1u << side;
-        }
-    });
+    points.reserve(pieces.list.size());
+    for (std::size_t i = 0; i < pieces.list.size(); ++i)
+      {
+        const Piece<dim> &piece = pieces.list[i];
+        if (piece.joined >= 0)
+          continue;
+        point_of[i]  = static_cast<int>(points.size());
+        const auto x = sub_cells.centre(piece.sub) +
+                       (piece.whole ? dealii::Tensor<1, dim>() : piece.moments.centre());
+        points.push_back(
+          {{first_id + points.size(),
+            x,
+            state_at_rest<dim>(x,
+                               piece.whole ? sub_cells.half_lengths() : domain_of(piece.moments),
+                               piece.whole ? whole_volume : piece.moments.volume,
+                               body_index,
+                               density,
+                               velocity)},
+           0u});
+      }
+    for (std::size_t i = 0; i < pieces.list.size(); ++i)
+      {
+        const Piece<dim> &piece = pieces.list[i];
+        auto &point = points[point_of[piece.joined >= 0 ? piece.joined : static_cast<int>(i)]];
+        for (int side = 0; side < 2 * dim; ++side)
+          {
+            LatticeIndex<dim> neighbour = piece.sub;
+            neighbour[side / 2] += side % 2 == 0 ? -1 : 1;
+            if (pieces.of_key[sub_cells.key(neighbour)] < 0)
+              point.exposed_sides |= 1u << side;
+          }
+      }
     return points;
   }
 

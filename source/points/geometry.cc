@@ -2,250 +2,16 @@
 #include <kedge/base/expression.h>
 #include <kedge/base/nearest_name.h>
 #include <kedge/points/geometry.h>
+#include <kedge/geometry/stl_file.h>
 
-#include <deal.II/base/tensor.h>
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include "shapes.h"
 
 namespace kedge
 {
   namespace
   {
-    /** How far outside a surface still counts as on it, in sizes of the shape. */
-    constexpr double surface_tolerance = 1e-12;
-
-    /**
-     * A region given by its level: negative inside, zero on the surface,
-     * positive outside, in sizes of the shape. Union and difference are then
-     * minimum and maximum, and surfaces stay part of the region.
-     */
-    template <int dim>
-    class Shape : public Geometry<dim>
-    {
-    public:
-      bool
-      contains(const dealii::Point<dim> &x) const override
-      {
-        return level(x) <= surface_tolerance;
-      }
-
-      virtual double
-      level(const dealii::Point<dim> &x) const = 0;
-    };
-
-
-
-    template <int dim>
-    class Box : public Shape<dim>
-    {
-    public:
-      Box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper)
-        : lower(lower)
-        , upper(upper)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            if (!(lower[d] < upper[d]))
-              throw UserError("The first corner must lie below the second in every direction.");
-            size = std::max(size, upper[d] - lower[d]);
-          }
-      }
-
-      double
-      level(const dealii::Point<dim> &x) const override
-      {
-        double outside = lower[0] - x[0];
-        for (unsigned int d = 0; d < dim; ++d)
-          outside = std::max({outside, lower[d] - x[d], x[d] - upper[d]});
-        return outside / size;
-      }
-
-      dealii::BoundingBox<dim>
-      bounding_box(const dealii::BoundingBox<dim> &) const override
-      {
-        return dealii::BoundingBox<dim>({lower, upper});
-      }
-
-    private:
-      dealii::Point<dim> lower, upper;
-      double             size = 0;
-    };
-
-
-
-    template <int dim>
-    class Ball : public Shape<dim>
-    {
-    public:
-      Ball(const dealii::Point<dim> &centre, const double radius)
-        : centre(centre)
-        , radius(radius)
-      {
-        if (!(radius > 0))
-          throw UserError("The radius must be greater than 0.");
-      }
-
-      double
-      level(const dealii::Point<dim> &x) const override
-      {
-        return (x.distance(centre) - radius) / (2 * radius);
-      }
-
-      dealii::BoundingBox<dim>
-      bounding_box(const dealii::BoundingBox<dim> &) const override
-      {
-        dealii::Point<dim> lower = centre, upper = centre;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= radius;
-            upper[d] += radius;
-          }
-        return dealii::BoundingBox<dim>({lower, upper});
-      }
-
-    private:
-      dealii::Point<dim> centre;
-      double             radius;
-    };
-
-
-
-    /** A straight circular cylinder between the centres of its two end faces. */
-    template <int dim>
-    class Cylinder : public Shape<dim>
-    {
-    public:
-      Cylinder(const dealii::Point<dim> &begin, const dealii::Point<dim> &end, const double radius)
-        : begin(begin)
-        , end(end)
-        , radius(radius)
-        , length(begin.distance(end))
-        , size(std::max(length, 2 * radius))
-      {
-        if (!(radius > 0))
-          throw UserError("The radius must be greater than 0.");
-        if (!(length > 0))
-          throw UserError("The two ends must differ.");
-        axis = (end - begin) / length;
-      }
-
-      double
-      level(const dealii::Point<dim> &x) const override
-      {
-        const double along  = (x - begin) * axis;
-        const double radial = (x - begin - along * axis).norm();
-        return std::max({radial - radius, -along, along - length}) / size;
-      }
-
-      dealii::BoundingBox<dim>
-      bounding_box(const dealii::BoundingBox<dim> &) const override
-      {
-        dealii::Point<dim> lower, upper;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            // half width of the end disc in direction d
-            const double reach = radius * std::sqrt(std::max(0., 1 - axis[d] * axis[d]));
-            lower[d]           = std::min(begin[d], end[d]) - reach;
-            upper[d]           = std::max(begin[d], end[d]) + reach;
-          }
-        return dealii::BoundingBox<dim>({lower, upper});
-      }
-
-    private:
-      dealii::Point<dim>     begin, end;
-      double                 radius, length, size;
-      dealii::Tensor<1, dim> axis;
-    };
-
-
-
-    /** Inside where phi < 0. As phi has no size, only its sign is the level. */
-    template <int dim>
-    class Implicit : public Shape<dim>
-    {
-    public:
-      explicit Implicit(const Expression &phi)
-        : phi(phi)
-      {}
-
-      double
-      level(const dealii::Point<dim> &x) const override
-      {
-        const double value = phi(&x[0]);
-        return value < 0 ? -1 : (value > 0 || std::isnan(value) ? 1 : 0);
-      }
-
-      dealii::BoundingBox<dim>
-      bounding_box(const dealii::BoundingBox<dim> &domain) const override
-      {
-        return domain;
-      }
-
-    private:
-      Expression phi;
-    };
-
-
-
-    template <int dim>
-    class Union : public Shape<dim>
-    {
-    public:
-      Union(std::shared_ptr<Shape<dim>> a, std::shared_ptr<Shape<dim>> b)
-        : a(a)
-        , b(b)
-      {}
-
-      double
-      level(const dealii::Point<dim> &x) const override
-      {
-        return std::min(a->level(x), b->level(x));
-      }
-
-      dealii::BoundingBox<dim>
-      bounding_box(const dealii::BoundingBox<dim> &domain) const override
-      {
-        dealii::BoundingBox<dim> box = a->bounding_box(domain);
-        box.merge_with(b->bounding_box(domain));
-        return box;
-      }
-
-    private:
-      std::shared_ptr<Shape<dim>> a, b;
-    };
-
-
-
-    template <int dim>
-    class Difference : public Shape<dim>
-    {
-    public:
-      Difference(std::shared_ptr<Shape<dim>> a, std::shared_ptr<Shape<dim>> b)
-        : a(a)
-        , b(b)
-      {}
-
-      double
-      level(const dealii::Point<dim> &x) const override
-      {
-        return std::max(a->level(x), -b->level(x));
-      }
-
-      dealii::BoundingBox<dim>
-      bounding_box(const dealii::BoundingBox<dim> &domain) const override
-      {
-        return a->bounding_box(domain);
-      }
-
-    private:
-      std::shared_ptr<Shape<dim>> a, b;
-    };
-
-
-
     /** One term of a description and the sign in front of it. */
     struct Term
     {
@@ -311,11 +77,56 @@ namespace kedge
 
 
 
+    Shape<2>
+    read_polygon(const std::string &arguments, const std::map<std::string, double> &constants)
+    {
+      const std::vector<std::string> parts = split_list(arguments);
+      if (parts.size() < 6 || parts.size() % 2 != 0)
+        throw UserError("It has " + std::to_string(parts.size()) +
+                        " numbers instead of two for each of at least three corners, its form is "
+                        "polygon(x0, y0; x1, y1; x2, y2; ...).");
+      std::vector<dealii::Point<2>> corners(parts.size() / 2);
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        corners[i / 2][i % 2] = evaluate_constant(parts[i], constants);
+      return make_polygon(corners);
+    }
+
+    Shape<3>
+    read_enclosed(const std::string                          &arguments,
+                  const std::map<std::string, double>        &constants,
+                  const std::optional<std::filesystem::path> &folder)
+    {
+      const std::string              form  = "stl(file; scale; x, y, z; a, b, c)";
+      const std::vector<std::string> parts = split_list(arguments);
+      if (parts.empty() || parts[0].empty())
+        throw UserError("It lacks the name of a file, its form is " + form + ".");
+      if (parts.size() != 1 && parts.size() != 2 && parts.size() != 5 && parts.size() != 8)
+        throw UserError("After the file it has " + std::to_string(parts.size() - 1) +
+                        " numbers instead of 0, 1, 4 or 7, its form is " + form + ".");
+      Placement placement;
+      for (std::size_t i = 1; i < parts.size(); ++i)
+        {
+          const double number                 = evaluate_constant(parts[i], constants);
+          (i == 1  ? placement.scale
+           : i < 5 ? placement.shift[i - 2]
+                   : placement.angles[i - 5]) = number;
+        }
+      if (!(placement.scale > 0))
+        throw UserError("The scale must be greater than 0.");
+      if (!folder)
+        return make_box(dealii::Point<3>(), dealii::Point<3>(1, 1, 1)); // stands for any shape
+      return make_enclosed(
+        std::make_shared<TriangleSurface>(placed(read_stl(*folder / parts[0]), placement)));
+    }
+
+
+
     template <int dim>
-    std::shared_ptr<Shape<dim>>
-    make_shape(const std::string                   &kind,
-               const std::string                   &arguments,
-               const std::map<std::string, double> &constants)
+    Shape<dim>
+    make_shape(const std::string                          &kind,
+               const std::string                          &arguments,
+               const std::map<std::string, double>        &constants,
+               const std::optional<std::filesystem::path> &folder)
     {
       if (kind == "box")
         {
@@ -324,7 +135,7 @@ namespace kedge
                          2 * dim,
                          dim == 2 ? "box(x0, y0; x1, y1)" : "box(x0, y0, z0; x1, y1, z1)",
                          constants);
-          return std::make_shared<Box<dim>>(point_at<dim>(numbers, 0), point_at<dim>(numbers, dim));
+          return make_box<dim>(point_at<dim>(numbers, 0), point_at<dim>(numbers, dim));
         }
       if (kind == "ball")
         {
@@ -333,7 +144,7 @@ namespace kedge
                          dim + 1,
                          dim == 2 ? "ball(x, y; radius)" : "ball(x, y, z; radius)",
                          constants);
-          return std::make_shared<Ball<dim>>(point_at<dim>(numbers, 0), numbers[dim]);
+          return make_ball<dim>(point_at<dim>(numbers, 0), numbers[dim]);
         }
       if (kind == "cylinder")
         {
@@ -341,25 +152,51 @@ namespace kedge
             throw UserError("A cylinder exists in 3D only; in 2D write ball(x, y; radius).");
           const auto numbers =
             read_numbers(arguments, 2 * dim + 1, "cylinder(x, y, z; x, y, z; radius)", constants);
-          return std::make_shared<Cylinder<dim>>(point_at<dim>(numbers, 0),
-                                                 point_at<dim>(numbers, dim),
-                                                 numbers[2 * dim]);
+          return make_cylinder<dim>(point_at<dim>(numbers, 0),
+                                    point_at<dim>(numbers, dim),
+                                    numbers[2 * dim]);
         }
       if (kind == "implicit")
         {
           const std::vector<std::string> variables =
             dim == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
-          return std::make_shared<Implicit<dim>>(Expression(arguments, variables, constants));
+          return make_implicit<dim>(Expression(arguments, variables, constants));
         }
-      throw UserError("There is no shape '" + kind + "'; did you mean " +
-                      nearest_name(kind, {"box", "ball", "cylinder", "implicit"}) + "?");
+      if constexpr (dim == 2)
+        {
+          if (kind == "polygon")
+            return read_polygon(arguments, constants);
+        }
+      else if (kind == "stl")
+        return read_enclosed(arguments, constants, folder);
+      if (kind == "below" || kind == "above")
+        {
+          const std::vector<std::string> variables =
+            dim == 2 ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "z"};
+          Expression(arguments, variables, constants); // which must not depend on y
+          return make_implicit<dim>(Expression(
+            (kind == "below" ? "y - (" : "(") + arguments + (kind == "below" ? ")" : ") - y"),
+            dim == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"},
+            constants));
+        }
+      if (kind == "polygon" || kind == "stl")
+        throw UserError(kind == "stl" ? "A surface encloses a body in 3D only; in 2D write "
+                                        "polygon(x0, y0; x1, y1; ...)."
+                                      : "A polygon exists in 2D only; in 3D write stl(file).");
+      throw UserError(
+        "There is no shape '" + kind + "'; did you mean " +
+        nearest_name(kind,
+                     {"box", "ball", "cylinder", "implicit", "below", "above", "polygon", "stl"}) +
+        "?");
     }
 
 
 
     template <int dim>
-    std::shared_ptr<Shape<dim>>
-    parse_term(const std::string &term, const std::map<std::string, double> &constants)
+    Shape<dim>
+    parse_term(const std::string                          &term,
+               const std::map<std::string, double>        &constants,
+               const std::optional<std::filesystem::path> &folder)
     {
       const std::size_t open = term.find('(');
       try
@@ -368,7 +205,8 @@ namespace kedge
             throw UserError("A shape has the form name(numbers).");
           return make_shape<dim>(dealii::Utilities::trim(term.substr(0, open)),
                                  term.substr(open + 1, term.size() - open - 2),
-                                 constants);
+                                 constants,
+                                 folder);
         }
       catch (const UserError &error)
         {
@@ -381,20 +219,22 @@ namespace kedge
 
   template <int dim>
   std::shared_ptr<Geometry<dim>>
-  parse_geometry(const std::string &description, const std::map<std::string, double> &constants)
+  parse_geometry(const std::string                          &description,
+                 const std::map<std::string, double>        &constants,
+                 const std::optional<std::filesystem::path> &folder)
   {
     if (dealii::Utilities::trim(description).empty())
       throw UserError("The geometry is empty; write for example box(0, 0; 1, 1).");
-    std::shared_ptr<Shape<dim>> geometry;
+    Shape<dim> geometry;
     for (const Term &term : split_terms(description))
       {
-        const auto shape = parse_term<dim>(term.text, constants);
+        const auto shape = parse_term<dim>(term.text, constants, folder);
         if (!geometry)
           geometry = shape;
         else if (term.sign == '+')
-          geometry = std::make_shared<Union<dim>>(geometry, shape);
+          geometry = make_union<dim>(geometry, shape);
         else
-          geometry = std::make_shared<Difference<dim>>(geometry, shape);
+          geometry = make_difference<dim>(geometry, shape);
       }
     return geometry;
   }
@@ -402,7 +242,11 @@ namespace kedge
 
 
   template std::shared_ptr<Geometry<2>>
-  parse_geometry<2>(const std::string &, const std::map<std::string, double> &);
+  parse_geometry<2>(const std::string &,
+                    const std::map<std::string, double> &,
+                    const std::optional<std::filesystem::path> &);
   template std::shared_ptr<Geometry<3>>
-  parse_geometry<3>(const std::string &, const std::map<std::string, double> &);
+  parse_geometry<3>(const std::string &,
+                    const std::map<std::string, double> &,
+                    const std::optional<std::filesystem::path> &);
 } // namespace kedge

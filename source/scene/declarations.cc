@@ -136,6 +136,11 @@ namespace kedge
             "2",
             allow.counts(true),
             "Material points per grid cell and direction [-]."},
+           {"Cut cells",
+            "clipped",
+            allow.one_of({"clipped", "whole"}),
+            "Points of sub-cells that the body's surface cuts. clipped: with volume and centre of "
+            "what lies in the body. whole: of the whole sub-cell if its centre lies in the body."},
            {"Basis",
             "gimp",
             allow.one_of({"linear", "gimp", "quadratic"}),

@@ -2,6 +2,7 @@
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
+#include <kedge/scene/read_geometry.h>
 #include <kedge/scene/read_materials.h>
 #include <kedge/scene/read_pore_fluid.h>
 #include <kedge/scene/read_scene.h>
@@ -14,9 +15,6 @@ namespace kedge
 {
   namespace
   {
-    /** How far, in edges of the grid, a body may reach past the grid by rounding. */
-    constexpr double domain_tolerance = 1e-10;
-
     /** Pictures of a run whose scene does not say how many. */
     constexpr unsigned int default_n_pictures = 50;
 
@@ -79,47 +77,19 @@ namespace kedge
 
 
     template <int dim>
-    dealii::BoundingBox<dim>
-    grid_box(const GridParameters<dim> &grid)
-    {
-      return dealii::BoundingBox<dim>({grid.origin, grid.origin + grid.extent});
-    }
-
-    template <int dim>
-    void
-    check_inside_grid(const SectionReader       &section,
-                      const Geometry<dim>       &geometry,
-                      const GridParameters<dim> &grid)
-    {
-      const auto [lower, upper] = geometry.bounding_box(grid_box(grid)).get_boundary_points();
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double low    = grid.origin[d];
-          const double high   = grid.origin[d] + grid.extent[d];
-          const double margin = domain_tolerance * grid.extent[d];
-          if (lower[d] < low - margin || upper[d] > high + margin)
-            {
-              std::ostringstream problem;
-              problem << "The body reaches from " << lower[d] << " to " << upper[d]
-                      << " in direction "
-                      << "xyz"[d] << ", the grid only from " << low << " to " << high
-                      << " (Grid/Origin and Grid/Extent).";
-              throw section.error("Geometry", problem.str());
-            }
-        }
-    }
-
-    template <int dim>
     std::vector<BodyParameters<dim>>
-    read_bodies(const ParameterReader &reader, const GridParameters<dim> &grid)
+    read_bodies(const ParameterReader       &reader,
+                const GridParameters<dim>   &grid,
+                const std::filesystem::path &folder)
     {
       std::vector<BodyParameters<dim>> bodies;
       for_each_name(reader, "Bodies", [&](const SectionReader &section) {
         BodyParameters<dim> body;
-        body.name            = section.name();
-        body.geometry        = parse_geometry<dim>(section.text("Geometry"), section.constants());
-        body.material        = find_name(reader, section, "Material", "Materials");
-        body.points_per_cell = counts<dim>(section, "Points per cell");
+        body.name               = section.name();
+        body.geometry           = read_geometry<dim>(section, grid, folder);
+        body.material           = find_name(reader, section, "Material", "Materials");
+        body.points_per_cell    = counts<dim>(section, "Points per cell");
+        body.clip               = section.text("Cut cells") == "clipped";
         const std::string basis = section.text("Basis");
         body.basis              = basis == "gimp"        ? BasisKind::gimp
                                   : basis == "quadratic" ? BasisKind::quadratic
@@ -131,7 +101,6 @@ namespace kedge
         body.body_force            = section.truth("Body force");
         body.initial_stress        = section.list("Initial stress");
         body.initial_pore_pressure = section.text("Initial pore pressure");
-        check_inside_grid(section, *body.geometry, grid);
         bodies.push_back(body);
       });
       if (bodies.empty())
@@ -454,7 +423,7 @@ namespace kedge
     scene.grid            = read_grid<dim>(reader);
     scene.node_conditions = read_node_conditions<dim>(reader);
     scene.materials       = read_materials(reader);
-    scene.bodies          = read_bodies<dim>(reader, scene.grid);
+    scene.bodies          = read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
     scene.contacts        = read_contacts(reader);
     scene.body_force      = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
     scene.point_loads     = read_point_loads<dim>(reader);

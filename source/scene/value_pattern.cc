@@ -245,9 +245,11 @@ namespace kedge
   ValuePatterns<dim>::geometry() const
   {
     const std::string shapes =
-      dim == 2 ? "box(x0, y0; x1, y1), ball(x, y; radius), implicit(phi(x, y), negative inside)"
+      dim == 2 ? "box(x0, y0; x1, y1), ball(x, y; radius), polygon(x0, y0; x1, y1; x2, y2; ...), "
+                 "implicit(phi(x, y), negative inside), below(f(x)), above(f(x))"
                : "box(x0, y0, z0; x1, y1, z1), ball(x, y, z; radius), cylinder(x, y, z; x, y, z; "
-                 "radius), implicit(phi(x, y, z), negative inside)";
+                 "radius), stl(file; scale; x, y, z of its origin; degrees about x, y, z), "
+                 "implicit(phi(x, y, z), negative inside), below(f(x, z)), above(f(x, z))";
     return ValuePattern(shapes + ", joined by + (union) and - (difference)",
                         [c = constants](const auto &text) {
                           parse_geometry<dim>(text, *c);

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
 #include <kedge/points/generation.h>
 #include <kedge/simulation/model.h>
 #include <kedge/solid/initial_stress.h>
@@ -96,6 +97,7 @@ namespace kedge
   void
   Model<dim>::create_points()
   {
+    check_node_conditions(scene.node_conditions, scene.constants, points.grid().lattice());
     GridParameters<dim> elements = scene.grid;
     elements.node_intervals      = 1;
     std::vector<GeneratedPoint<dim>> made;

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
 #include <kedge/simulation/run.h>
 
 namespace kedge
@@ -73,8 +74,9 @@ namespace kedge
     std::vector<Probe> result;
     for (const auto &parameters : model.scene.probes)
       {
-        Probe  probe{parameters.name, {}};
-        double nearest = std::numeric_limits<double>::max();
+        Probe                   probe{parameters.name, {}};
+        double                  nearest       = std::numeric_limits<double>::max();
+        const PointOrigin<dim> *nearest_point = nullptr;
         for (const auto &point : model.generated_points())
           {
             if (!parameters.body.empty() && model.bodies.names[point.body] != parameters.body)
@@ -90,10 +92,16 @@ namespace kedge
             const double distance = point.location.distance_square(parameters.place);
             if (distance < nearest)
               {
-                nearest      = distance;
-                probe.points = {{point.id, 1.}};
+                nearest       = distance;
+                nearest_point = &point;
+                probe.points  = {{point.id, 1.}};
               }
           }
+        if (nearest_point != nullptr)
+          check_nearness<dim>("Probe '" + parameters.name + "'",
+                              parameters.place,
+                              nearest_point->location,
+                              nearest_point->half_lengths);
         result.push_back(std::move(probe));
       }
     return result;

@@ -1,3 +1,5 @@
+#include <kedge/points/attachment_checks.h>
+#include <kedge/points/volume_report.h>
 #include <kedge/simulation/run.h>
 #include <kedge/stress/point_update.h>
 
@@ -30,6 +32,14 @@ namespace kedge
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       out << "body:             " << scene.bodies[b].name << ", " << points_of_body[b]
           << " material points of " << scene.materials[scene.bodies[b].material].name << "\n";
+    const Lattice<dim> &lattice = model.points.grid().lattice();
+    for (const auto &name : idle_node_conditions(scene.node_conditions,
+                                                 scene.constants,
+                                                 lattice,
+                                                 model.generated_points()))
+      out << "note:             Node conditions/" << name
+          << " holds no node of a cell with material points\n";
+    write_volumes(out, scene.bodies, lattice, model.generated_points());
     // a block row of the tangent reaches 3^dim nodes, 5^dim with GIMP
     const double per_point = sizeof(PointRecord<dim>) + sizeof(Stencil<dim>) +
                              sizeof(StressState<dim>) + sizeof(PointUpdate<dim>) + 200.;

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
 #include <kedge/solid/external_loads.h>
 
 namespace kedge
@@ -95,6 +96,14 @@ namespace kedge
                       std::to_string(parameters.n_points) + " material points, but body '" +
                       parameters.body + "' has only " + std::to_string(candidates.size()) + ".");
     std::sort(candidates.begin(), candidates.end());
+    const auto nearest =
+      std::find_if(points.begin(), points.end(), [id = candidates[0].second](const auto &point) {
+        return point.record.id == id;
+      });
+    check_nearness<dim>("Point load '" + parameters.name + "'",
+                        parameters.place,
+                        nearest->record.location,
+                        nearest->record.state.reference_half_lengths);
     for (unsigned int i = 0; i < parameters.n_points; ++i)
       shares[candidates[i].second].push_back({load, 1. / parameters.n_points});
   }

@@ -39,9 +39,15 @@ namespace kedge
   };
 
   /**
-   * Makes the material points of one body: every cell of the background grid
-   * is divided into equal sub-cells, and each sub-cell whose centre lies in
-   * the body becomes a point with the sub-cell's volume, at rest strain.
+   * Makes the material points of one body, at rest strain. Every cell of the background
+   * grid is divided into equal sub-cells. One that lies in the body as a whole becomes a
+   * point at its centre, with its volume; of one that the surface cuts, the part within
+   * the body becomes a point at that part's centre, with that part's volume, to 1e-6 of
+   * the sub-cell's. Parts of less than a tenth join a neighbour, whose centre moves
+   * accordingly, so that no point weighs next to nothing. The points' mass and centre are
+   * thereby those of the body. Half-lengths l of a cut point fulfil 2^dim l_1 l_2 (l_3) =
+   * volume and are as the part's radii of gyration.
+   * If body.clip is false, whole sub-cells whose centres lie in the body become points.
    * The mass is @p density [kg/m^3] times the volume.
    * Ids count up from @p first_id. In MPI runs every rank makes all points
    * (the caller keeps its share).

@@ -25,6 +25,7 @@ namespace kedge
     std::shared_ptr<Geometry<dim>> geometry;
     unsigned int                   material = 0; ///< index into the scene's materials
     std::array<unsigned int, dim>  points_per_cell;
+    bool                           clip  = true; ///< points of cut sub-cells weigh what is in them
     BasisKind                      basis = BasisKind::gimp;
     std::array<std::string, dim>   initial_velocity; ///< expressions of x, y, z [m/s]
     bool                           body_force = true;

@@ -1,0 +1,44 @@
+#ifndef kedge_points_attachment_checks_h
+#define kedge_points_attachment_checks_h
+
+#include <kedge/points/generation.h>
+
+namespace kedge
+{
+  // Whether what a scene attaches to material points and nodes finds any.
+
+  /**
+   * Holds what is to act or be looked at at @p place to the material point nearest to it:
+   * it may be as far from its centre as two of its domains reach, so that places on the
+   * body's surface and its corners are near.
+   *
+   * @param what  for the message: "Point load 'tip'"
+   * @throws UserError that says how far away the body is.
+   */
+  template <int dim>
+  void
+  check_nearness(const std::string            &what,
+                 const dealii::Point<dim>     &place,
+                 const dealii::Point<dim>     &nearest,
+                 const dealii::Tensor<1, dim> &half_lengths);
+
+  /** @throws UserError if the Where of a node condition is true at no node of the grid. */
+  template <int dim>
+  void
+  check_node_conditions(const std::vector<NodeConditionParameters<dim>> &conditions,
+                        const std::map<std::string, double>             &constants,
+                        const Lattice<dim>                              &lattice);
+
+  /**
+   * The names of the node conditions that hold no node of any cell with material points:
+   * they do nothing until a body comes to them, or are at the wrong place.
+   */
+  template <int dim>
+  std::vector<std::string>
+  idle_node_conditions(const std::vector<NodeConditionParameters<dim>> &conditions,
+                       const std::map<std::string, double>             &constants,
+                       const Lattice<dim>                              &lattice,
+                       const std::vector<PointOrigin<dim>>             &points);
+} // namespace kedge
+
+#endif

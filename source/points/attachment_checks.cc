@@ -1,0 +1,148 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
+
+#include <set>
+
+namespace kedge
+{
+  namespace
+  {
+    template <int dim>
+    bool
+    holds(const NodeConditionParameters<dim> &condition,
+          const Expression                   &where,
+          const Lattice<dim>                 &lattice,
+          const LatticeIndex<dim>            &node)
+    {
+      if (condition.on_side)
+        {
+          const int direction = static_cast<int>(condition.side / 2);
+          return node[direction] == (condition.side % 2 == 0 ? 0 : lattice.n_cells[direction]);
+        }
+      const auto x    = lattice.node_position(node);
+      double     v[3] = {0, 0, 0};
+      for (int d = 0; d < dim; ++d)
+        v[d] = x[d];
+      return where(v) != 0.;
+    }
+
+    template <int dim>
+    Expression
+    where_of(const NodeConditionParameters<dim>  &condition,
+             const std::map<std::string, double> &constants)
+    {
+      return condition.on_side ? Expression(1.)
+                               : Expression(condition.where, {"x", "y", "z"}, constants);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  check_nearness(const std::string            &what,
+                 const dealii::Point<dim>     &place,
+                 const dealii::Point<dim>     &nearest,
+                 const dealii::Tensor<1, dim> &half_lengths)
+  {
+    const double distance = place.distance(nearest), reach = 4. * half_lengths.norm();
+    if (distance <= reach)
+      return;
+    std::ostringstream message;
+    message << what << " is to act at (" << place << "), " << distance
+            << " m from the nearest material point, at (" << nearest << "); it may be " << reach
+            << " m away at most. Change its Place.";
+    throw UserError(message.str());
+  }
+
+
+
+  template <int dim>
+  void
+  check_node_conditions(const std::vector<NodeConditionParameters<dim>> &conditions,
+                        const std::map<std::string, double>             &constants,
+                        const Lattice<dim>                              &lattice)
+  {
+    const LatticeWindow<dim> window{{}, lattice.n_cells};
+    for (const auto &condition : conditions)
+      {
+        const Expression where = where_of(condition, constants);
+        // an expression without x, y, z switches it on or off
+        if (condition.on_side || where.is_constant())
+          continue;
+        bool any = false;
+        for (unsigned int i = 0; i < window.n_nodes_total() && !any; ++i)
+          any = holds<dim>(condition, where, lattice, window.node_index(i));
+        if (any)
+          continue;
+        std::ostringstream message;
+        message << "Node conditions/" << condition.name << "/Where = " << condition.where
+                << ": it is true at none of the grid's nodes, which stand every (" << lattice.h
+                << ") m from (" << lattice.origin
+                << ") on. Write an interval around a row of nodes.";
+        throw UserError(message.str());
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  idle_node_conditions(const std::vector<NodeConditionParameters<dim>> &conditions,
+                       const std::map<std::string, double>             &constants,
+                       const Lattice<dim>                              &lattice,
+                       const std::vector<PointOrigin<dim>>             &points)
+  {
+    std::set<LatticeIndex<dim>> nodes;
+    for (const auto &point : points)
+      {
+        const auto cell = lattice.cell_of(point.location);
+        for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+          {
+            LatticeIndex<dim> node = cell;
+            for (int d = 0; d < dim; ++d)
+              node[d] += static_cast<int>((corner >> d) & 1u);
+            nodes.insert(node);
+          }
+      }
+    std::vector<std::string> idle;
+    for (const auto &condition : conditions)
+      {
+        const Expression where = where_of(condition, constants);
+        if (std::none_of(nodes.begin(), nodes.end(), [&](const LatticeIndex<dim> &node) {
+              return holds<dim>(condition, where, lattice, node);
+            }))
+          idle.push_back(condition.name);
+      }
+    return idle;
+  }
+
+  template void
+  check_nearness(const std::string &,
+                 const dealii::Point<2> &,
+                 const dealii::Point<2> &,
+                 const dealii::Tensor<1, 2> &);
+  template void
+  check_node_conditions(const std::vector<NodeConditionParameters<2>> &,
+                        const std::map<std::string, double> &,
+                        const Lattice<2> &);
+  template std::vector<std::string>
+  idle_node_conditions(const std::vector<NodeConditionParameters<2>> &,
+                       const std::map<std::string, double> &,
+                       const Lattice<2> &,
+                       const std::vector<PointOrigin<2>> &);
+  template void
+  check_nearness(const std::string &,
+                 const dealii::Point<3> &,
+                 const dealii::Point<3> &,
+                 const dealii::Tensor<1, 3> &);
+  template void
+  check_node_conditions(const std::vector<NodeConditionParameters<3>> &,
+                        const std::map<std::string, double> &,
+                        const Lattice<3> &);
+  template std::vector<std::string>
+  idle_node_conditions(const std::vector<NodeConditionParameters<3>> &,
+                       const std::map<std::string, double> &,
+                       const Lattice<3> &,
+                       const std::vector<PointOrigin<3>> &);
+} // namespace kedge
