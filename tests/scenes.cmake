@@ -52,6 +52,11 @@ kedge_add_scene_test(scene.element_plasticity prm/element_plasticity.prm
   COMPARE_RANKS 1e-9)
 kedge_add_scene_test(scene.element_plasticity.half_step prm/element_plasticity.prm
   SET "Constants/steps = 400")
+kedge_add_scene_test(scene.strength_with_depth prm/strength_with_depth.prm
+  COMPARE_RANKS 1e-12)
+kedge_add_restart_test(scene.restart.strength_with_depth prm/strength_with_depth.prm KILLS 1
+  SET "Constants/a = 0.2" "Time/Step = 5e-5" "Output/Checkpoint every steps = 500"
+    "Output/Points interval = 0")
 kedge_add_scene_test(path.simple_shear prm/paths/simple_shear.prm OPTIONS --drive)
 kedge_add_scene_test(path.tension_cycle prm/paths/tension_cycle.prm OPTIONS --drive)
 kedge_add_scene_test(path.turning_strain prm/paths/turning_strain.prm OPTIONS --drive)

@@ -73,21 +73,27 @@ namespace kedge
     /** How far beyond the yield surface, over its size [-]. */
     template <class Law>
     double
-    excess(const Law &, const double, const double)
+    excess(const Law &, const HistoryOf<Law> &, const double, const double)
     {
       return 0.;
     }
 
     double
-    excess(const VonMises &law, const double, const double shear)
+    excess(const VonMises                  &law,
+           const VonMises::History<double> &history,
+           const double,
+           const double shear)
     {
-      const double radius = law.radius(0.);
+      const double radius = law.radius(history);
       return 2. * law.elastic.shear_modulus * shear / radius - 1.;
     }
 
     template <class Elasticity>
     double
-    excess(const CriticalState<Elasticity> &law, const double volume_strain, const double shear)
+    excess(const CriticalState<Elasticity> &law,
+           const HistoryOf<CriticalState<Elasticity>> &,
+           const double volume_strain,
+           const double shear)
     {
       const auto surface = law.surface(volume_strain, shear, porosity(law.elastic));
       return surface.A > 0. && surface.B > 0. ? surface.excess : 1.;
@@ -97,10 +103,13 @@ namespace kedge
 
 
   std::array<double, 3>
-  initial_elastic_strain(const Material &material, const std::array<double, 3> &stress)
+  initial_elastic_strain(const Material              &material,
+                         const std::array<double, 3> &stress,
+                         const std::vector<double>   &history)
   {
     return std::visit(
       [&](const auto &law) {
+        using Law             = std::decay_t<decltype(law)>;
         const auto  &elastic  = elasticity(law);
         const double pressure = (stress[0] + stress[1] + stress[2]) / 3.;
         const double volume   = volume_strain_at(elastic, pressure);
@@ -113,7 +122,8 @@ namespace kedge
             strain[i]             = deviator + volume / 3.;
             square += deviator * deviator;
           }
-        if (excess(law, volume, std::sqrt(square)) > surface_tolerance)
+        if (excess(law, read_history<Law>(history.data()), volume, std::sqrt(square)) >
+            surface_tolerance)
           throw UserError("it lies beyond the yield surface");
         return strain;
       },

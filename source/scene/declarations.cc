@@ -397,6 +397,8 @@ namespace kedge
                         "body",
                         "id",
                         "equivalent_plastic_strain",
+                        "yield_stress",
+                        "plastic_volume_strain",
                         "plastic_dissipation",
                         "pore_pressure",
                         "porosity",

@@ -45,20 +45,22 @@ namespace kedge
     std::vector<EntryDeclaration>
     plasticity(const ValuePatterns<dim> &allow)
     {
-      const auto positive = allow.number(NumberRange::positive()).or_empty();
-      return {{"Yield radius rho_y",
-               "",
-               positive,
-               "von_mises: ||s|| at which the material yields [Pa]. Either this or the next."},
-              {"Uniaxial yield stress sigma_y",
-               "",
-               positive,
-               "von_mises: stress at which a bar in tension yields, sqrt(3/2) rho_y [Pa]."},
-              {"Hardening modulus",
-               "0",
-               allow.number(NumberRange::not_negative()),
-               "von_mises: growth of sigma_y with the equivalent plastic strain, H [Pa]; 0 is "
-               "perfect plasticity."}};
+      const auto of_place = allow.expression({"x", "y", "z"}, "x, y, z").or_empty();
+      return {
+        {"Yield radius rho_y",
+         "",
+         of_place,
+         "von_mises: ||s|| at which the material yields, of the place where a point is at the "
+         "start [Pa]. Either this or the next."},
+        {"Uniaxial yield stress sigma_y",
+         "",
+         of_place,
+         "von_mises: stress at which a bar in tension yields, sqrt(3/2) rho_y [Pa]."},
+        {"Hardening modulus",
+         "0",
+         allow.number(NumberRange::not_negative()),
+         "von_mises: growth of sigma_y with the equivalent plastic strain, H [Pa]; 0 is "
+         "perfect plasticity."}};
     }
 
     template <int dim>

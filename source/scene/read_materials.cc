@@ -1,3 +1,4 @@
+#include <kedge/base/expression.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/read_materials.h>
 
@@ -12,6 +13,23 @@ namespace kedge
     {
       if (section.is_empty(entry))
         throw section.error(entry, "Model " + model + " needs it.");
+    }
+
+    /** @p factor times a constant that may depend on the place; it must be positive. */
+    SpatialConstant
+    read_spatial(const SectionReader &section, const std::string &entry, const double factor = 1.)
+    {
+      const Expression expression(section.text(entry), {"x", "y", "z"}, section.constants());
+      SpatialConstant  constant(factor * expression({0., 0., 0.}));
+      constant.entry = entry;
+      if (!expression.is_constant())
+        {
+          constant.expression = section.text(entry);
+          constant.factor     = factor;
+        }
+      else if (!(constant.value > 0.))
+        throw section.error(entry, "It must be greater than 0.");
+      return constant;
     }
 
     void
@@ -61,8 +79,8 @@ namespace kedge
         }
       material.kind              = MaterialKind::von_mises;
       material.yield_stress      = first_is_given(section, radius, uniaxial)
-                                     ? std::sqrt(1.5) * section.number(radius)
-                                     : section.number(uniaxial);
+                                     ? read_spatial(section, radius, std::sqrt(1.5))
+                                     : read_spatial(section, uniaxial);
       material.hardening_modulus = section.number("Hardening modulus");
     }
 

@@ -1,5 +1,7 @@
 #include <kedge/simulation/step_engine.h>
 
+#include <set>
+
 namespace kedge
 {
   namespace
@@ -59,6 +61,35 @@ namespace kedge
       return result;
     }
 
+    MemoryColumns
+    columns_of_bodies(const std::vector<Material> &materials)
+    {
+      MemoryColumns result;
+      for (const Material &material : materials)
+        result.push_back(memory_indices(material));
+      return result;
+    }
+
+    /** What the points of a scene have to remember. */
+    template <int dim>
+    PointLayout<dim>
+    layout_of(const Scene<dim> &scene, const Scheme &scheme, const std::vector<Material> &materials)
+    {
+      AssertThrow(memory_columns().size() <= most_memory_columns, dealii::ExcInternalError());
+      std::set<unsigned int> used;
+      for (const auto &columns : columns_of_bodies(materials))
+        used.insert(columns.begin(), columns.end());
+      used.erase(not_in_memory);
+      return PointLayout<dim>({used.begin(), used.end()},
+                              std::any_of(materials.begin(),
+                                          materials.end(),
+                                          [](const Material &m) {
+                                            return yields(m);
+                                          }),
+                              scene.pore_fluid.has_value(),
+                              scheme.carries_acceleration);
+    }
+
     /** What to change if bodies have too few points to hold their nodes; else empty. */
     template <int dim>
     std::string
@@ -96,13 +127,10 @@ namespace kedge
     , stiffness_radius(stiffness_radius_of(scene))
     , shared_volume(bodies_with_shared_volume(scene))
     , material_of_body(materials_of_bodies(scene))
-    , with_history(std::any_of(material_of_body.begin(),
-                               material_of_body.end(),
-                               [](const Material &m) {
-                                 return has_history(m);
-                               }))
+    , columns_of_body(columns_of_bodies(material_of_body))
     , body_names(names_of_bodies(scene))
     , background(scene.grid, communicator)
+    , cloud(layout_of(scene, scheme, material_of_body))
     , conditions(scene.node_conditions, scene.constants)
     , loads(scene.body_force,
             bodies_with_body_force(scene),
@@ -151,7 +179,7 @@ namespace kedge
   void
   StepEngine<dim>::find_nodes()
   {
-    step_points.reinit(background, cloud, basis_of_body, with_history, shared_volume);
+    step_points.reinit(background, cloud, basis_of_body, columns_of_body, shared_volume);
     auto       reached  = step_points.reached_nodes(background.window());
     const bool has_ties = scene.stabilisation.method == StabilisationKind::aggregation;
     ties.find(background,

@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/simulation/step_engine.h>
+#include <kedge/solid/initial_history.h>
 #include <kedge/solid/initial_stress.h>
 
 namespace kedge
@@ -41,6 +42,10 @@ namespace kedge
         else
           points.insert(points.end(), of_body.begin(), of_body.end());
       }
+    std::vector<MaterialParameters> parameters;
+    for (const auto &body : scene.bodies)
+      parameters.push_back(scene.materials[body.material]);
+    set_initial_history(parameters, scene.constants, points);
     set_initial_stress(scene.bodies, material_of_body, scene.constants, points);
     if (has_pores())
       saturate(points);
@@ -261,21 +266,26 @@ namespace kedge
 
     if (scheme.dynamic)
       map_velocities_back();
-    std::vector<PointState<dim> *> changed;
-    changed.reserve(step_points.size());
+    std::vector<dealii::Tensor<2, dim>> deformation_gradients(step_points.size());
     cloud.update_each(
       [&](const unsigned int number, dealii::Point<dim> &location, PointState<dim> &state) {
         const unsigned int slot = step_points.slot_of[number];
-        changed.push_back(&state);
         location += point_displacements[slot];
         state.displacement += point_displacements[slot];
-        apply_point_update(updates[slot], state);
+        apply_point_update(updates[slot],
+                           columns_of_body[static_cast<unsigned int>(state.body)],
+                           state);
+        deformation_gradients[number] = state.deformation_gradient;
         if (porous != nullptr)
           apply_pore_update(pore_updates[slot], state);
         if (scheme.dynamic)
           update_velocities(slot, state);
       });
-    update_domains(changed);
+    const auto stretches = stretches_along_axes(deformation_gradients);
+    cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
+      for (int d = 0; d < dim; ++d)
+        state.half_lengths[d] = state.reference_half_lengths[d] * stretches[number][d];
+    });
     follow_points();
     activated = false;
   }

@@ -1,6 +1,8 @@
 #include <kedge/stress/point_update.h>
 #include <kedge/transfer/step_points.h>
 
+#include <algorithm>
+
 namespace kedge
 {
   namespace
@@ -112,33 +114,8 @@ namespace kedge
 
   template <int dim>
   void
-  StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
-                          const MaterialPoints<dim>    &points,
-                          const std::vector<BasisKind> &basis_of_body,
-                          const bool                    with_history,
-                          const std::vector<bool>      &shared_volume)
+  StepPoints<dim>::resize(const unsigned int n)
   {
-    const unsigned int                   n = points.n_local();
-    std::vector<unsigned int>            cell(n), body(n);
-    std::vector<Stencil<dim>>            stencils(n);
-    std::vector<dealii::Point<dim>>      locations(n);
-    std::vector<const PointState<dim> *> states(n);
-    std::vector<std::uint64_t>           ids(n);
-    points.for_each([&](const unsigned int        i,
-                        const std::uint64_t       point_id,
-                        const dealii::Point<dim> &x,
-                        const PointState<dim>    &state) {
-      states[i]    = &state;
-      ids[i]       = point_id;
-      locations[i] = x;
-      body[i]      = static_cast<unsigned int>(state.body);
-      cell[i]      = grid.window().cell_number(grid.lattice().cell_of(x));
-      stencils[i] =
-        make_stencil(basis_of_body[body[i]], grid.lattice(), grid.window(), x, state.half_lengths);
-    });
-    find_order(grid, cell, body, stencils, basis_of_body.size());
-    find_groups(grid, cell, shared_volume);
-
     stencil.resize(n);
     mass.resize(n);
     volume.resize(n);
@@ -147,31 +124,79 @@ namespace kedge
     velocity.resize(n);
     acceleration.resize(n);
     stress_state.resize(n);
-    history.resize(with_history ? n : 0);
+    history.resize(std::size_t(n) * n_history);
     slot_of.resize(n);
     id.resize(n);
-    loaded.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::set_history(const unsigned int               slot,
+                               const PointState<dim>           &state,
+                               const std::vector<unsigned int> &columns)
+  {
+    double *values = history.data() + std::size_t(slot) * n_history;
+    for (unsigned int c = 0; c < columns.size(); ++c)
+      values[c] =
+        columns[c] < most_memory_columns ? state.memory[columns[c]] : std::log(determinant[slot]);
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
+                          const MaterialPoints<dim>    &points,
+                          const std::vector<BasisKind> &basis_of_body,
+                          const MemoryColumns          &columns_of_body,
+                          const std::vector<bool>      &shared_volume)
+  {
+    const unsigned int        n = points.n_local();
+    std::vector<unsigned int> cell(n), body(n);
+    std::vector<Stencil<dim>> stencils(n);
+    points.for_each([&](const unsigned int i,
+                        const std::uint64_t,
+                        const dealii::Point<dim> &x,
+                        const PointState<dim>    &state) {
+      body[i] = static_cast<unsigned int>(state.body);
+      cell[i] = grid.window().cell_number(grid.lattice().cell_of(x));
+      stencils[i] =
+        make_stencil(basis_of_body[body[i]], grid.lattice(), grid.window(), x, state.half_lengths);
+    });
+    find_order(grid, cell, body, stencils, basis_of_body.size());
+    find_groups(grid, cell, shared_volume);
+
+    n_history = 0;
+    for (const auto &columns : columns_of_body)
+      n_history = std::max<unsigned int>(n_history, columns.size());
+    resize(n);
     for (unsigned int slot = 0; slot < n; ++slot)
       {
-        const unsigned int     i     = local_number[slot];
-        const PointState<dim> &state = *states[i];
-        slot_of[i]                   = slot;
-        id[slot]                     = ids[i];
-        if (state.loaded != 0.)
-          loaded.push_back(slot);
-        stencil[slot]      = stencils[i];
-        mass[slot]         = state.mass;
-        volume[slot]       = state.reference_volume;
-        location[slot]     = locations[i];
-        determinant[slot]  = dealii::determinant(state.deformation_gradient);
-        velocity[slot]     = state.velocity;
-        acceleration[slot] = state.acceleration;
-        stress_state[slot] = make_stress_state(state);
-        if (with_history)
-          history[slot] = {state.equivalent_plastic_strain,
-                           state.plastic_volume_strain,
-                           std::log(determinant[slot])};
+        slot_of[local_number[slot]] = slot;
+        stencil[slot]               = stencils[local_number[slot]];
       }
+    loaded.clear();
+    points.for_each([&](const unsigned int        i,
+                        const std::uint64_t       point_id,
+                        const dealii::Point<dim> &x,
+                        const PointState<dim>    &state) {
+      const unsigned int slot = slot_of[i];
+      id[slot]                = point_id;
+      if (state.loaded != 0.)
+        loaded.push_back(slot);
+      mass[slot]         = state.mass;
+      volume[slot]       = state.reference_volume;
+      location[slot]     = x;
+      determinant[slot]  = dealii::determinant(state.deformation_gradient);
+      velocity[slot]     = state.velocity;
+      acceleration[slot] = state.acceleration;
+      stress_state[slot] = make_stress_state(state);
+      if (n_history > 0)
+        set_history(slot, state, columns_of_body[body[i]]);
+    });
+    std::sort(loaded.begin(), loaded.end());
   }
 
 

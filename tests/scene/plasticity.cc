@@ -77,11 +77,11 @@ TEST(ScenePlasticity, TheYieldStressIsGivenInOneOfTwoWays)
                                          "    set Yield radius rho_y = h*2e6\n"
                                          "    set Hardening modulus = 3e5"));
   EXPECT_EQ(by_radius.kind, MaterialKind::von_mises);
-  EXPECT_NEAR(by_radius.yield_stress, 2449489.742783178, 1e-8);
+  EXPECT_NEAR(by_radius.yield_stress.value, 2449489.742783178, 1e-8);
   EXPECT_EQ(by_radius.hardening_modulus, 3e5);
   const auto by_stress =
     read(with_stiff("set Model = von_mises\n    set Uniaxial yield stress sigma_y = 2e6"));
-  EXPECT_EQ(by_stress.yield_stress, 2e6);
+  EXPECT_EQ(by_stress.yield_stress.value, 2e6);
   EXPECT_EQ(by_stress.hardening_modulus, 0.);
   EXPECT_EQ(read(full_scene).kind, MaterialKind::hencky);
 }

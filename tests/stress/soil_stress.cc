@@ -20,7 +20,7 @@ namespace
   struct Step
   {
     StressState<dim> state;
-    MaterialHistory  history;
+    SoilHistory      history;
     double           energy; ///< elastic and frozen [J/m^3]
     double           A[dim][dim];
   };
@@ -60,9 +60,13 @@ namespace
           tau[i][j] = update.kirchhoff_stress[symmetric_index<dim>(i, j)];
         }
     step.state = make_stress_state<dim>(B, 0.999 * update.out_of_plane_stretch_factor, F, tau);
-    step.history.equivalent_plastic_strain = update.equivalent_plastic_strain;
-    step.history.plastic_volume_strain     = update.plastic_volume_strain;
-    step.energy                            = update.strain_energy + update.hardening_energy;
+    if constexpr (Material::yields)
+      {
+        const auto end                         = read_history<Material>(update.history);
+        step.history.equivalent_plastic_strain = end.equivalent_plastic_strain;
+        step.history.plastic_volume_strain     = end.plastic_volume_strain;
+      }
+    step.energy = update.strain_energy + update.hardening_energy;
     random.step(size, step.A);
     return step;
   }

@@ -4,7 +4,9 @@
 #include <kedge/materials/critical_state.h>
 #include <kedge/materials/von_mises.h>
 
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace kedge
 {
@@ -31,16 +33,46 @@ namespace kedge
       }
   }
 
-  /** Whether it needs MaterialHistory. */
+  /** The columns of its history. */
+  std::vector<Column>
+  columns_of(const Material &material);
+
+  /** Whether it answers by more than the elastic strain. */
   inline bool
   has_history(const Material &material)
   {
-    return std::visit(
-      [](const auto &m) {
-        return m.has_history;
-      },
-      material);
+    return !columns_of(material).empty();
   }
+
+  /**
+   * What laws remember or take from the place, of all laws, each name once: a
+   * point's memory in this order. Columns of several laws that have the same
+   * name mean the same.
+   */
+  const std::vector<Column> &
+  memory_columns();
+
+  /** The place of a column in memory_columns(); their number if there is none of that name. */
+  unsigned int
+  memory_index(const std::string &name);
+
+  /** Instead of a memory_index(): the column is ln det F. */
+  constexpr unsigned int not_in_memory = static_cast<unsigned int>(-1);
+
+  /** For each of the columns of a material its memory_index(), or not_in_memory. */
+  std::vector<unsigned int>
+  memory_indices(const Material &material);
+
+  /**
+   * For each of the columns of a material of these @p parameters the constant
+   * of place that it is, or a null pointer.
+   */
+  std::vector<const SpatialConstant *>
+  constants_of_place(const Material &material, const MaterialParameters &parameters);
+
+  /** The numbers of the columns at the start: constants at X = 0, else 0. */
+  std::vector<double>
+  start_history(const Material &material, const MaterialParameters &parameters);
 
   /** Whether it has plastic strains, stores energy in hardening and dissipates. */
   inline bool

@@ -31,6 +31,24 @@ namespace kedge
     cell_mean
   };
 
+  /**
+   * A constant of a law that may differ from place to place: factor times an
+   * expression of the reference place X = (x, y, z).
+   */
+  struct SpatialConstant
+  {
+    double      value       = 0.;    ///< the same everywhere, or that at X = 0
+    std::string expression  = "";    ///< of x, y, z; empty if it is the same everywhere
+    double      factor      = 1.;    ///< by which the expression is multiplied
+    std::string entry       = "";    ///< its name in the scene
+    bool        may_be_zero = false; ///< else it must be positive
+
+    SpatialConstant() = default;
+    SpatialConstant(const double value)
+      : value(value)
+    {}
+  };
+
   /** A material as the scene names it; density in the reference configuration. */
   struct MaterialParameters
   {
@@ -45,8 +63,8 @@ namespace kedge
     double initial_porosity = 0;
 
     // von_mises
-    double yield_stress      = 0; ///< uniaxial, sigma_y = sqrt(3/2) rho_y [Pa]
-    double hardening_modulus = 0; ///< H [Pa]
+    SpatialConstant yield_stress;          ///< uniaxial, sigma_y = sqrt(3/2) rho_y [Pa]
+    double          hardening_modulus = 0; ///< H [Pa]
 
     // critical_state, critical_state_improved
     double       preconsolidation_pressure = 0; ///< p_c, of the Kirchhoff stress [Pa]

@@ -285,7 +285,7 @@ namespace kedge
     std::vector<BasisKind>   basis_of_body;
     std::vector<Material>    material_of_body;
     std::vector<double>      modulus_of_body; ///< Young's [Pa]
-    const bool               with_history;    ///< of any material
+    const MemoryColumns      columns_of_body; ///< of the laws' histories, in the points' memory
     std::vector<std::string> body_names;
 
     BackgroundGrid<dim>   background;
