@@ -16,6 +16,20 @@ namespace kedge
       return pressure / law.bulk_modulus;
     }
 
+    /** Of Modified Cam Clay, which bears no tension. */
+    double
+    volume_strain_at(const ModifiedCamClay &law, const double pressure)
+    {
+      if (!(pressure < 0.))
+        {
+          std::ostringstream message;
+          message << "its mean stress of " << pressure
+                  << " Pa is no compression, which modified_cam_clay cannot do without";
+          throw UserError(message.str());
+        }
+      return -law.kappa * std::log(-pressure / law.reference_pressure);
+    }
+
     double
     volume_strain_at(const ImprovedHencky &law, const double pressure)
     {
@@ -63,6 +77,19 @@ namespace kedge
       return law.elastic;
     }
 
+    template <class Law>
+    const Hencky &
+    elasticity(const HenckyPlasticity<Law> &law)
+    {
+      return law.elastic;
+    }
+
+    const ModifiedCamClay &
+    elasticity(const ModifiedCamClay &law)
+    {
+      return law;
+    }
+
     template <class Elasticity>
     const Elasticity &
     elasticity(const CriticalState<Elasticity> &law)
@@ -70,17 +97,48 @@ namespace kedge
       return law.elastic;
     }
 
+    /** The plastic part of the strain. */
+    template <class Law>
+    double
+    returned(const Law &law, const HistoryOf<Law> &history, const double (&strain)[3])
+    {
+      const double nothing[3] = {0., 0., 0.};
+      const auto   response   = law.respond(strain, nothing, history);
+      if (!response.valid)
+        return 1.;
+      double size = 0., plastic = 0.;
+      for (int i = 0; i < 3; ++i)
+        {
+          size += std::abs(strain[i]);
+          plastic += std::abs(law.plastic_increment(response, i));
+        }
+      return plastic > 0. ? plastic / size : 0.;
+    }
+
     /** How far beyond the yield surface, over its size [-]. */
     template <class Law>
     double
-    excess(const Law &, const HistoryOf<Law> &, const double, const double)
+    excess(const Law            &law,
+           const HistoryOf<Law> &history,
+           const double (&strain)[3],
+           const double,
+           const double)
     {
-      return 0.;
+      if constexpr (Law::yields)
+        return returned(law, history, strain);
+      else
+        {
+          (void)law;
+          (void)history;
+          (void)strain;
+          return 0.;
+        }
     }
 
     double
     excess(const VonMises                  &law,
            const VonMises::History<double> &history,
+           const double (&)[3],
            const double,
            const double shear)
     {
@@ -92,6 +150,7 @@ namespace kedge
     double
     excess(const CriticalState<Elasticity> &law,
            const HistoryOf<CriticalState<Elasticity>> &,
+           const double (&)[3],
            const double volume_strain,
            const double shear)
     {
@@ -122,7 +181,8 @@ namespace kedge
             strain[i]             = deviator + volume / 3.;
             square += deviator * deviator;
           }
-        if (excess(law, read_history<Law>(history.data()), volume, std::sqrt(square)) >
+        const double values[3] = {strain[0], strain[1], strain[2]};
+        if (excess(law, read_history<Law>(history.data()), values, volume, std::sqrt(square)) >
             surface_tolerance)
           throw UserError("it lies beyond the yield surface");
         return strain;

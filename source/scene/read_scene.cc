@@ -379,8 +379,13 @@ namespace kedge
     check_initial_stress(const ParameterReader &reader, const Scene<dim> &scene)
     {
       for (const BodyParameters<dim> &body : scene.bodies)
-        if (!body.initial_stress.empty() &&
-            scene.materials[body.material].volume_change == VolumeChange::cell_mean)
+        if (body.initial_stress.empty() &&
+            scene.materials[body.material].kind == MaterialKind::modified_cam_clay)
+          throw SectionReader(reader, {"Bodies", body.name})
+            .error("Initial stress",
+                   "Model modified_cam_clay cannot be without stress: give it one in compression.");
+        else if (!body.initial_stress.empty() &&
+                 scene.materials[body.material].volume_change == VolumeChange::cell_mean)
           throw SectionReader(reader, {"Bodies", body.name})
             .error("Initial stress",
                    "The volume change of material '" + scene.materials[body.material].name +
@@ -453,18 +458,19 @@ namespace kedge
     scene.grid            = read_grid<dim>(reader);
     scene.node_conditions = read_node_conditions<dim>(reader);
     scene.materials       = read_materials(reader);
-    scene.bodies          = read_bodies<dim>(reader, scene.grid);
-    scene.body_force      = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
-    scene.point_loads     = read_point_loads<dim>(reader);
-    scene.tractions       = read_tractions<dim>(reader);
-    scene.time            = read_time(reader);
-    scene.equilibrium     = {SectionReader(reader, {"Equilibrium"}).whole_number("Steps"),
-                             SectionReader(reader, {"Equilibrium"}).number("Duration")};
-    scene.newton          = read_newton(reader);
-    scene.linear_solver   = read_linear_solver(reader);
-    scene.transfer        = read_mapping(reader);
-    scene.stabilisation   = read_stabilisation(reader);
-    scene.pore_fluid      = read_pore_fluid<dim>(reader, scene);
+    scale_softening(scene.grid.extent[0] / scene.grid.n_cells[0], scene.materials);
+    scene.bodies        = read_bodies<dim>(reader, scene.grid);
+    scene.body_force    = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
+    scene.point_loads   = read_point_loads<dim>(reader);
+    scene.tractions     = read_tractions<dim>(reader);
+    scene.time          = read_time(reader);
+    scene.equilibrium   = {SectionReader(reader, {"Equilibrium"}).whole_number("Steps"),
+                           SectionReader(reader, {"Equilibrium"}).number("Duration")};
+    scene.newton        = read_newton(reader);
+    scene.linear_solver = read_linear_solver(reader);
+    scene.transfer      = read_mapping(reader);
+    scene.stabilisation = read_stabilisation(reader);
+    scene.pore_fluid    = read_pore_fluid<dim>(reader, scene);
     if (scene.linear_solver.kind == LinearSolverKind::krylov_blocks && !scene.pore_fluid)
       throw SectionReader(reader, {"Linear solver"})
         .error("Method",

@@ -18,7 +18,7 @@ namespace kedge
     {
     public:
       explicit Driver(const PathScene &scene)
-        : free_point(scene.material)
+        : free_point(scene.material, scene.path.initial_pressure)
       {
         if (scene.path.kind == PathParameters::Kind::control)
           test.emplace(scene.path, scene.material, scene.constants);

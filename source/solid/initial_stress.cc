@@ -61,9 +61,13 @@ namespace kedge
           state.out_of_plane_kirchhoff_stress = stress[2][2];
         }
       const double values[3] = {strain[0], strain[1], strain[2]};
-      state.strain_energy    = std::visit(
+      std::visit(
         [&](const auto &law) {
-          return law.energy(values, read_history<std::decay_t<decltype(law)>>(history.data()));
+          using Law           = std::decay_t<decltype(law)>;
+          const auto start    = read_history<Law>(history.data());
+          state.strain_energy = law.energy(values, start);
+          if constexpr (Law::yields)
+            state.hardening_energy = law.hardening_energy(start);
         },
         material);
     }

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/materials/initial_strain.h>
 #include <kedge/stress/single_point.h>
 
 namespace kedge
@@ -30,9 +31,30 @@ namespace kedge
 
 
 
-  SinglePoint::SinglePoint(const MaterialParameters &parameters)
+  SinglePoint::SinglePoint(const MaterialParameters &parameters, const double pressure)
     : SinglePoint(make_material(parameters), start_history(make_material(parameters), parameters))
-  {}
+  {
+    const double borne = pressure > 0. ? pressure : parameters.reference_pressure;
+    if (!(borne > 0.))
+      return;
+    const auto strain =
+      initial_elastic_strain(material, {{-borne, -borne, -borne}}, present.history);
+    for (int i = 0; i < 3; ++i)
+      {
+        present.elastic_frame[i][i]    = std::exp(strain[i]);
+        present.kirchhoff_stress[i][i] = -borne;
+      }
+    const double values[3] = {strain[0], strain[1], strain[2]};
+    std::visit(
+      [&](const auto &law) {
+        using Law             = std::decay_t<decltype(law)>;
+        const auto history    = read_history<Law>(present.history.data());
+        present.strain_energy = law.energy(values, history);
+        if constexpr (Law::yields)
+          present.hardening_energy = law.hardening_energy(history);
+      },
+      material);
+  }
 
 
 

@@ -164,8 +164,8 @@ TYPED_TEST(MaterialsCriticalState, ElasticStepsAreThoseOfTheElasticity)
   const CriticalState<TypeParam> law(soil());
   const double strain[3] = {-.001, -.0011, -.0012}, increment[3] = {-1e-4, 0, 5e-5};
   SoilHistory  history;
-  history.volume_strain = -.0033;
-  const auto response   = law.respond(strain, increment, history);
+  history.volume_strain         = -.0033;
+  const auto           response = law.respond(strain, increment, history);
   HistoryOf<TypeParam> of_elasticity{};
   if constexpr (has_columns<TypeParam>)
     of_elasticity.volume_strain = history.volume_strain;

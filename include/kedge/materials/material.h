@@ -2,6 +2,11 @@
 #define kedge_materials_material_h
 
 #include <kedge/materials/critical_state.h>
+#include <kedge/materials/drucker_prager.h>
+#include <kedge/materials/modified_cam_clay.h>
+#include <kedge/materials/mohr_coulomb.h>
+#include <kedge/materials/tresca.h>
+#include <kedge/materials/undrained_von_mises.h>
 #include <kedge/materials/von_mises.h>
 
 #include <string>
@@ -11,8 +16,16 @@
 namespace kedge
 {
   /** Any material a body can have; std::visit it once per batch of points. */
-  using Material = std::
-    variant<Hencky, VonMises, ImprovedHencky, CriticalState<Hencky>, CriticalState<ImprovedHencky>>;
+  using Material = std::variant<Hencky,
+                                VonMises,
+                                ImprovedHencky,
+                                CriticalState<Hencky>,
+                                CriticalState<ImprovedHencky>,
+                                Tresca,
+                                UndrainedVonMises,
+                                DruckerPrager,
+                                MohrCoulomb,
+                                ModifiedCamClay>;
 
   inline Material
   make_material(const MaterialParameters &parameters)
@@ -27,6 +40,16 @@ namespace kedge
           return CriticalState<Hencky>(parameters);
         case MaterialKind::critical_state_improved:
           return CriticalState<ImprovedHencky>(parameters);
+        case MaterialKind::tresca:
+          return Tresca(parameters);
+        case MaterialKind::undrained_von_mises:
+          return UndrainedVonMises(parameters);
+        case MaterialKind::drucker_prager:
+          return DruckerPrager(parameters);
+        case MaterialKind::mohr_coulomb:
+          return MohrCoulomb(parameters);
+        case MaterialKind::modified_cam_clay:
+          return ModifiedCamClay(parameters);
         case MaterialKind::hencky:
         default:
           return Hencky(parameters);

@@ -41,8 +41,14 @@ namespace kedge
     /** @p history in the columns of the law at the start. */
     SinglePoint(const Material &material, const std::vector<double> &history);
 
-    /** A point of a material of these parameters, with the constants of place X = 0. */
-    explicit SinglePoint(const MaterialParameters &parameters);
+    /**
+     * A point of a material of these parameters, with the constants of place X = 0,
+     * that bears an isotropic @p pressure [Pa] undeformed; 0 is none, or the reference
+     * pressure of modified_cam_clay.
+     *
+     * @throws UserError if it cannot
+     */
+    explicit SinglePoint(const MaterialParameters &parameters, const double pressure = 0.);
 
     /**
      * What a step from the present state to the deformation gradient @p F
