@@ -61,8 +61,29 @@ kedge_add_scene_test(scene.element_plasticity prm/element_plasticity.prm
   COMPARE_RANKS 1e-9)
 kedge_add_scene_test(scene.element_plasticity.half_step prm/element_plasticity.prm
   SET "Constants/steps = 400")
+kedge_add_scene_test(scene.strength_with_depth prm/strength_with_depth.prm
+  COMPARE_RANKS 1e-12)
+kedge_add_restart_test(scene.restart.strength_with_depth prm/strength_with_depth.prm KILLS 1
+  SET "Constants/a = 0.2" "Time/Step = 5e-5" "Output/Checkpoint every steps = 500"
+    "Output/Points interval = 0")
 kedge_add_scene_test(path.simple_shear prm/paths/simple_shear.prm OPTIONS --drive)
 kedge_add_scene_test(path.tension_cycle prm/paths/tension_cycle.prm OPTIONS --drive)
+kedge_add_scene_test(path.clay_softening prm/paths/clay_softening.prm OPTIONS --drive)
+kedge_add_scene_test(path.clay_softening.von_mises prm/paths/clay_softening.prm OPTIONS --drive
+  SET "Materials/clay/Model = von_mises")
+kedge_add_scene_test(path.sand_plane_strain prm/paths/sand_plane_strain.prm OPTIONS --drive)
+kedge_add_scene_test(path.sand_plane_strain.no_dilation prm/paths/sand_plane_strain.prm
+  OPTIONS --drive SET "Constants/c = 5e3" "Constants/psi = 0")
+kedge_add_scene_test(path.sand_plane_strain.associated prm/paths/sand_plane_strain.prm
+  OPTIONS --drive SET "Constants/c = 5e3" "Constants/psi = 30")
+kedge_add_scene_test(path.cam_clay_undrained prm/paths/cam_clay_undrained.prm OPTIONS --drive)
+kedge_add_scene_test(path.cam_clay_undrained.overconsolidated prm/paths/cam_clay_undrained.prm
+  OPTIONS --drive SET "Constants/OCR = 1.5")
+kedge_add_scene_test(path.cam_clay_drained prm/paths/cam_clay_drained.prm OPTIONS --drive)
+kedge_add_scene_test(path.cam_clay_drained.overconsolidated prm/paths/cam_clay_drained.prm
+  OPTIONS --drive SET "Constants/OCR = 2")
+kedge_add_scene_test(path.mohr_coulomb_plane_strain prm/paths/mohr_coulomb_plane_strain.prm
+  OPTIONS --drive)
 kedge_add_scene_test(path.turning_strain prm/paths/turning_strain.prm OPTIONS --drive)
 kedge_add_scene_test(path.turning_strain.half_step prm/paths/turning_strain.prm
   OPTIONS --drive SET "Constants/steps = 400")

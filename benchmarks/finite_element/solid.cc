@@ -14,9 +14,24 @@ namespace finite_element
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** The history of a law out of the columns of a point's memory. */
+    template <class Law>
+    kedge::HistoryOf<Law>
+    history_of(const std::vector<unsigned int> &columns, const kedge::PointState<dim> &state)
+    {
+      double values[kedge::most_law_columns] = {};
+      for (unsigned int c = 0; c < columns.size(); ++c)
+        values[c] = state.memory[columns[c]];
+      return kedge::read_history<Law>(values);
+    }
+  } // namespace
+
   Solid::Solid(const Parameters &parameters)
     : parameters(parameters)
     , material(kedge::make_material(parameters.material))
+    , columns(kedge::memory_indices(material))
     , scheme(parameters.time)
     , element(FE_Q<dim>(parameters.degree), dim)
     , dofs(triangulation)
@@ -105,6 +120,9 @@ namespace finite_element
             point.state.deformation_gradient         = unit_symmetric_tensor<dim>();
             point.state.elastic_frame                = unit_symmetric_tensor<dim>();
             point.state.out_of_plane_elastic_stretch = 1.;
+            const auto start = kedge::start_history(material, parameters.material);
+            for (unsigned int c = 0; c < columns.size(); ++c)
+              point.state.memory[columns[c]] = start[c];
             for (unsigned int A = 0; A < n; ++A)
               point.gradient.push_back(
                 values.shape_grad(element.component_to_system_index(0, A), q));
@@ -234,7 +252,7 @@ namespace finite_element
                       const QuadraturePoint &point,
                       const double (&gradient)[dim][dim]) const
   {
-    const kedge::MaterialHistory history{point.state.equivalent_plastic_strain};
+    const auto history = history_of<Law>(columns, point.state);
     if (scheme.conserving_stress)
       return kedge::evaluate_force_stress<dim, with_tangent, kedge::StressRule::conserving>(
         law,
@@ -406,7 +424,8 @@ namespace finite_element
             {
               double gradient[dim][dim];
               relative_gradient(points[q], u, gradient);
-              const kedge::MaterialHistory history{points[q].state.equivalent_plastic_strain};
+              const auto history =
+                history_of<std::decay_t<decltype(law)>>(columns, points[q].state);
               ok = kedge::update_point<dim>(law,
                                             points[q].stress_state,
                                             history,
@@ -420,7 +439,7 @@ namespace finite_element
     if (!ok)
       return false;
     for (std::size_t q = 0; q < points.size(); ++q)
-      kedge::apply_point_update<dim>(updates[q], points[q].state);
+      kedge::apply_point_update<dim>(updates[q], columns, points[q].state);
     external_work += external * increment;
     displacement_n += increment;
     if (scheme.dynamic)

@@ -141,6 +141,7 @@ namespace finite_element
 
     const Parameters                  parameters;
     const kedge::Material             material;
+    const std::vector<unsigned int>   columns; ///< of its history in a point's memory
     const kedge::Scheme               scheme;
     dealii::Triangulation<dim>        triangulation;
     dealii::FESystem<dim>             element;

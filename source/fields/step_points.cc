@@ -1,6 +1,8 @@
 #include <kedge/fields/step_points.h>
 #include <kedge/stress/point_update.h>
 
+#include <algorithm>
+
 namespace kedge
 {
   namespace
@@ -112,45 +114,8 @@ namespace kedge
 
   template <int dim>
   void
-  StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
-                          const MaterialPoints<dim>    &points,
-                          const std::vector<BasisKind> &basis_of_body,
-                          const bool                    with_history,
-                          const std::vector<bool>      &shared_volume,
-                          const std::vector<bool>      &members)
+  StepPoints<dim>::resize(const unsigned int n)
   {
-    std::vector<unsigned int>            cell, body, number;
-    std::vector<Stencil<dim>>            stencils;
-    std::vector<dealii::Point<dim>>      locations;
-    std::vector<const PointState<dim> *> states;
-    std::vector<std::uint64_t>           ids;
-    cell.reserve(points.n_local());
-    body.reserve(points.n_local());
-    number.reserve(points.n_local());
-    stencils.reserve(points.n_local());
-    locations.reserve(points.n_local());
-    states.reserve(points.n_local());
-    ids.reserve(points.n_local());
-    points.for_each([&](const unsigned int        i,
-                        const std::uint64_t       point_id,
-                        const dealii::Point<dim> &x,
-                        const PointState<dim>    &state) {
-      const auto of_body = static_cast<unsigned int>(state.body);
-      if (!members.empty() && !members[of_body])
-        return;
-      number.push_back(i);
-      states.push_back(&state);
-      ids.push_back(point_id);
-      locations.push_back(x);
-      body.push_back(of_body);
-      cell.push_back(grid.window().cell_number(grid.lattice().cell_of(x)));
-      stencils.push_back(
-        make_stencil(basis_of_body[of_body], grid.lattice(), grid.window(), x, state.half_lengths));
-    });
-    const auto n = static_cast<unsigned int>(number.size());
-    find_order(grid, cell, body, stencils, basis_of_body.size());
-    find_groups(grid, cell, shared_volume);
-
     stencil.resize(n);
     mass.resize(n);
     volume.resize(n);
@@ -159,32 +124,90 @@ namespace kedge
     velocity.resize(n);
     acceleration.resize(n);
     stress_state.resize(n);
-    history.resize(with_history ? n : 0);
-    slot_of.assign(points.n_local(), no_slot);
+    history.resize(std::size_t(n) * n_history);
     id.resize(n);
-    loaded.clear();
-    for (unsigned int slot = 0; slot < n; ++slot)
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::set_history(const unsigned int               slot,
+                               const PointState<dim>           &state,
+                               const std::vector<unsigned int> &columns)
+  {
+    double *values = history.data() + std::size_t(slot) * n_history;
+    for (unsigned int c = 0; c < columns.size(); ++c)
+      values[c] =
+        columns[c] < most_memory_columns ? state.memory[columns[c]] : std::log(determinant[slot]);
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::reinit(const BackgroundGrid<dim>    &grid,
+                          const MaterialPoints<dim>    &points,
+                          const std::vector<BasisKind> &basis_of_body,
+                          const MemoryColumns          &columns_of_body,
+                          const std::vector<bool>      &shared_volume,
+                          const std::vector<bool>      &members)
+  {
+    std::vector<unsigned int> cell, body, number;
+    std::vector<Stencil<dim>> stencils;
+    for (auto *numbers : {&cell, &body, &number})
+      numbers->reserve(points.n_local());
+    stencils.reserve(points.n_local());
+    points.for_each([&](const unsigned int i,
+                        const std::uint64_t,
+                        const dealii::Point<dim> &x,
+                        const PointState<dim>    &state) {
+      const auto of_body = static_cast<unsigned int>(state.body);
+      if (!members.empty() && !members[of_body])
+        return;
+      number.push_back(i);
+      body.push_back(of_body);
+      cell.push_back(grid.window().cell_number(grid.lattice().cell_of(x)));
+      stencils.push_back(
+        make_stencil(basis_of_body[of_body], grid.lattice(), grid.window(), x, state.half_lengths));
+    });
+    find_order(grid, cell, body, stencils, basis_of_body.size());
+    find_groups(grid, cell, shared_volume);
+
+    n_history = 0;
+    for (const auto &columns : columns_of_body)
+      n_history = std::max<unsigned int>(n_history, columns.size());
+    resize(number.size());
+    slot_of.assign(points.n_local(), no_slot);
+    for (unsigned int slot = 0; slot < number.size(); ++slot)
       {
-        const unsigned int     i     = local_number[slot];
-        const PointState<dim> &state = *states[i];
-        slot_of[number[i]]           = slot;
-        local_number[slot]           = number[i];
-        id[slot]                     = ids[i];
-        if (state.loaded != 0.)
-          loaded.push_back(slot);
-        stencil[slot]      = stencils[i];
-        mass[slot]         = state.mass;
-        volume[slot]       = state.reference_volume;
-        location[slot]     = locations[i];
-        determinant[slot]  = dealii::determinant(state.deformation_gradient);
-        velocity[slot]     = state.velocity;
-        acceleration[slot] = state.acceleration;
-        stress_state[slot] = make_stress_state(state);
-        if (with_history)
-          history[slot] = {state.equivalent_plastic_strain,
-                           state.plastic_volume_strain,
-                           std::log(determinant[slot])};
+        const unsigned int i = local_number[slot];
+        stencil[slot]        = stencils[i];
+        slot_of[number[i]]   = slot;
+        local_number[slot]   = number[i];
       }
+    loaded.clear();
+    points.for_each([&](const unsigned int        i,
+                        const std::uint64_t       point_id,
+                        const dealii::Point<dim> &x,
+                        const PointState<dim>    &state) {
+      const unsigned int slot = slot_of[i];
+      if (slot == no_slot)
+        return;
+      id[slot] = point_id;
+      if (state.loaded != 0.)
+        loaded.push_back(slot);
+      mass[slot]         = state.mass;
+      volume[slot]       = state.reference_volume;
+      location[slot]     = x;
+      determinant[slot]  = dealii::determinant(state.deformation_gradient);
+      velocity[slot]     = state.velocity;
+      acceleration[slot] = state.acceleration;
+      stress_state[slot] = make_stress_state(state);
+      if (n_history > 0)
+        set_history(slot, state, columns_of_body[static_cast<unsigned int>(state.body)]);
+    });
+    std::sort(loaded.begin(), loaded.end());
   }
 
 

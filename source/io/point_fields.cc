@@ -1,6 +1,7 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/base/nearest_name.h>
 #include <kedge/io/point_fields.h>
+#include <kedge/materials/material.h>
 
 #include <algorithm>
 #include <cmath>
@@ -124,15 +125,15 @@ namespace kedge
     template <int dim>
     struct FieldList
     {
-      using Evaluate = void (*)(const PointRecord<dim> &, double *);
+      using Evaluate = std::function<void(const PointRecord<dim> &, double *)>;
 
       void
-      add(const char *name,
-          const char *unit,
-          const char *meaning,
-          Evaluate    evaluate,
-          FieldShape  shape   = FieldShape::scalar,
-          bool        integer = false)
+      add(const char     *name,
+          const char     *unit,
+          const char     *meaning,
+          const Evaluate &evaluate,
+          FieldShape      shape   = FieldShape::scalar,
+          bool            integer = false)
       {
         fields.push_back({name, unit, meaning, shape, integer, evaluate});
       }
@@ -218,10 +219,11 @@ namespace kedge
       list.add("volume", "m^3 (m^2 in 2D)", "volume now", volume);
       list.add("body", "-", "index of its body", scalar_of_state<dim, &S::body>, scalar, true);
       list.add("id", "-", "unique in the run, never changes", id, scalar, true);
-      list.add("equivalent_plastic_strain",
-               "-",
-               "accumulated",
-               scalar_of_state<dim, &S::equivalent_plastic_strain>);
+      const std::vector<Column> &columns = memory_columns();
+      for (unsigned int c = 0; c < columns.size(); ++c)
+        list.add(columns[c].name, columns[c].unit, columns[c].meaning, [c](P p, double *v) {
+          *v = p.state.memory[c];
+        });
       list.add("plastic_dissipation",
                "J/m^3",
                "accumulated, per initial volume",

@@ -318,9 +318,9 @@ namespace kedge
   typename CriticalState<Elasticity>::Response
   CriticalState<Elasticity>::respond(const double (&strain_n)[3],
                                      const double (&increment)[3],
-                                     const MaterialHistory &history) const
+                                     const History<double> &history) const
   {
-    const auto trial = elastic.respond(strain_n, increment, history);
+    const auto trial = elastic.respond(strain_n, increment, of_elasticity(history));
     Response   response;
     response.valid = true;
     if constexpr (Elasticity::can_fail)

@@ -16,6 +16,20 @@ namespace kedge
       return pressure / law.bulk_modulus;
     }
 
+    /** Of Modified Cam Clay, which bears no tension. */
+    double
+    volume_strain_at(const ModifiedCamClay &law, const double pressure)
+    {
+      if (!(pressure < 0.))
+        {
+          std::ostringstream message;
+          message << "its mean stress of " << pressure
+                  << " Pa is no compression, which modified_cam_clay cannot do without";
+          throw UserError(message.str());
+        }
+      return -law.kappa * std::log(-pressure / law.reference_pressure);
+    }
+
     double
     volume_strain_at(const ImprovedHencky &law, const double pressure)
     {
@@ -63,6 +77,19 @@ namespace kedge
       return law.elastic;
     }
 
+    template <class Law>
+    const Hencky &
+    elasticity(const HenckyPlasticity<Law> &law)
+    {
+      return law.elastic;
+    }
+
+    const ModifiedCamClay &
+    elasticity(const ModifiedCamClay &law)
+    {
+      return law;
+    }
+
     template <class Elasticity>
     const Elasticity &
     elasticity(const CriticalState<Elasticity> &law)
@@ -70,24 +97,62 @@ namespace kedge
       return law.elastic;
     }
 
+    /** The plastic part of the strain. */
+    template <class Law>
+    double
+    returned(const Law &law, const HistoryOf<Law> &history, const double (&strain)[3])
+    {
+      const double nothing[3] = {0., 0., 0.};
+      const auto   response   = law.respond(strain, nothing, history);
+      if (!response.valid)
+        return 1.;
+      double size = 0., plastic = 0.;
+      for (int i = 0; i < 3; ++i)
+        {
+          size += std::abs(strain[i]);
+          plastic += std::abs(law.plastic_increment(response, i));
+        }
+      return plastic > 0. ? plastic / size : 0.;
+    }
+
     /** How far beyond the yield surface, over its size [-]. */
     template <class Law>
     double
-    excess(const Law &, const double, const double)
+    excess(const Law            &law,
+           const HistoryOf<Law> &history,
+           const double (&strain)[3],
+           const double,
+           const double)
     {
-      return 0.;
+      if constexpr (Law::yields)
+        return returned(law, history, strain);
+      else
+        {
+          (void)law;
+          (void)history;
+          (void)strain;
+          return 0.;
+        }
     }
 
     double
-    excess(const VonMises &law, const double, const double shear)
+    excess(const VonMises                  &law,
+           const VonMises::History<double> &history,
+           const double (&)[3],
+           const double,
+           const double shear)
     {
-      const double radius = law.radius(0.);
+      const double radius = law.radius(history);
       return 2. * law.elastic.shear_modulus * shear / radius - 1.;
     }
 
     template <class Elasticity>
     double
-    excess(const CriticalState<Elasticity> &law, const double volume_strain, const double shear)
+    excess(const CriticalState<Elasticity> &law,
+           const HistoryOf<CriticalState<Elasticity>> &,
+           const double (&)[3],
+           const double volume_strain,
+           const double shear)
     {
       const auto surface = law.surface(volume_strain, shear, porosity(law.elastic));
       return surface.A > 0. && surface.B > 0. ? surface.excess : 1.;
@@ -97,10 +162,13 @@ namespace kedge
 
 
   std::array<double, 3>
-  initial_elastic_strain(const Material &material, const std::array<double, 3> &stress)
+  initial_elastic_strain(const Material              &material,
+                         const std::array<double, 3> &stress,
+                         const std::vector<double>   &history)
   {
     return std::visit(
       [&](const auto &law) {
+        using Law             = std::decay_t<decltype(law)>;
         const auto  &elastic  = elasticity(law);
         const double pressure = (stress[0] + stress[1] + stress[2]) / 3.;
         const double volume   = volume_strain_at(elastic, pressure);
@@ -113,7 +181,9 @@ namespace kedge
             strain[i]             = deviator + volume / 3.;
             square += deviator * deviator;
           }
-        if (excess(law, volume, std::sqrt(square)) > surface_tolerance)
+        const double values[3] = {strain[0], strain[1], strain[2]};
+        if (excess(law, read_history<Law>(history.data()), values, volume, std::sqrt(square)) >
+            surface_tolerance)
           throw UserError("it lies beyond the yield surface");
         return strain;
       },

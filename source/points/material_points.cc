@@ -58,7 +58,7 @@ namespace kedge
     handler.reset();
     handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation(),
                                                                         grid.mapping(),
-                                                                        n_state_values<dim>);
+                                                                        layout.n_values());
     for (const auto &record : records)
       insert(grid, record);
     handler->update_cached_numbers();
@@ -75,13 +75,13 @@ namespace kedge
     dealii::Point<dim> unit;
     for (int d = 0; d < dim; ++d)
       unit[d] = grid.lattice().scaled(record.location[d], d) - cell[d];
+    std::array<double, n_state_values<dim>> values;
+    layout.store(record.state, values.data());
     handler->insert_particle(record.location,
                              unit,
                              record.id,
                              grid.cell_iterator(cell),
-                             dealii::ArrayView<const double>(reinterpret_cast<const double *>(
-                                                               &record.state),
-                                                             n_state_values<dim>));
+                             dealii::ArrayView<const double>(values.data(), layout.n_values()));
   }
 
 

@@ -1,3 +1,4 @@
+#include <kedge/base/expression.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/declarations.h>
 #include <kedge/scene/material_declarations.h>
@@ -386,29 +387,14 @@ namespace kedge
            {"Fields",
             "displacement, velocity, cauchy_stress, pressure, von_mises_stress, det_F, volume, body",
             allow
-              .list_of({"position",
-                        "displacement",
-                        "velocity",
-                        "acceleration",
-                        "deformation_gradient",
-                        "det_F",
-                        "half_lengths",
-                        "kirchhoff_stress",
-                        "cauchy_stress",
-                        "pressure",
-                        "von_mises_stress",
-                        "strain_energy",
-                        "kinetic_energy",
-                        "mass",
-                        "volume",
-                        "body",
-                        "id",
-                        "equivalent_plastic_strain",
-                        "plastic_dissipation",
-                        "pore_pressure",
-                        "porosity",
-                        "darcy_velocity",
-                        "total_stress"})
+              .list_of(
+                split_list("position, displacement, velocity, acceleration, deformation_gradient, "
+                           "det_F, half_lengths, kirchhoff_stress, cauchy_stress, pressure, "
+                           "von_mises_stress, strain_energy, kinetic_energy, mass, volume, body, "
+                           "id, equivalent_plastic_strain, yield_stress, plastic_volume_strain, "
+                           "plastic_shear_strain, undrained_strength, cohesion, "
+                           "preconsolidation_pressure, plastic_dissipation, pore_pressure, "
+                           "porosity, darcy_velocity, total_stress"))
               .or_empty(),
             "What the pictures hold."},
            {"Formats",

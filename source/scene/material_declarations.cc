@@ -16,6 +16,15 @@ namespace kedge
       return result;
     }
 
+    /** A part of 1, 0 included. */
+    NumberRange
+    part(const bool includes_one)
+    {
+      NumberRange result    = range(0, 1, includes_one);
+      result.includes_lower = true;
+      return result;
+    }
+
     /** Two moduli, in one of two ways, and the porosity. */
     template <int dim>
     std::vector<EntryDeclaration>
@@ -45,20 +54,103 @@ namespace kedge
     std::vector<EntryDeclaration>
     plasticity(const ValuePatterns<dim> &allow)
     {
-      const auto positive = allow.number(NumberRange::positive()).or_empty();
-      return {{"Yield radius rho_y",
+      const auto of_place = allow.expression({"x", "y", "z"}, "x, y, z").or_empty();
+      return {
+        {"Yield radius rho_y",
+         "",
+         of_place,
+         "von_mises: ||s|| at which the material yields, of the place where a point is at the "
+         "start [Pa]. Either this or the next."},
+        {"Uniaxial yield stress sigma_y",
+         "",
+         of_place,
+         "von_mises: stress at which a bar in tension yields, sqrt(3/2) rho_y [Pa]."},
+        {"Hardening modulus",
+         "0",
+         allow.number(NumberRange::not_negative()),
+         "von_mises: growth of sigma_y with the equivalent plastic strain, H [Pa]; 0 is "
+         "perfect plasticity."}};
+    }
+
+    template <int dim>
+    std::vector<EntryDeclaration>
+    undrained_strength(const ValuePatterns<dim> &allow)
+    {
+      return {
+        {"Undrained strength",
+         "",
+         allow.expression({"x", "y", "z"}, "x, y, z").or_empty(),
+         "tresca, von_mises: s_u, half the largest difference of principal stresses, in "
+         "simple shear and plane strain, of the place where a point is at the start [Pa]."},
+        {"Remoulded strength ratio",
+         "1",
+         allow.number(range(0, 1, true)),
+         "With Undrained strength: what softening leaves of it, 1/sensitivity; 1: no "
+         "softening [-]."},
+        {"Softening shear strain",
+         "10",
+         allow.number(NumberRange::positive()),
+         "With Undrained strength: xi_95, plastic shear strain at which 95 % of the loss "
+         "is reached [-]."},
+        {"Softening cell size",
+         "",
+         allow.number(NumberRange::positive()).or_empty(),
+         "With Undrained strength: the grid's cell size in x for which Softening shear strain "
+         "holds; on another it is scaled by the inverse of the sizes, for a shear band is as "
+         "wide as some cells [m]. Nothing: no scaling."}};
+    }
+
+    template <int dim>
+    std::vector<EntryDeclaration>
+    friction(const ValuePatterns<dim> &allow)
+    {
+      return {{"Cohesion",
                "",
-               positive,
-               "von_mises: ||s|| at which the material yields [Pa]. Either this or the next."},
-              {"Uniaxial yield stress sigma_y",
+               allow.expression({"x", "y", "z"}, "x, y, z").or_empty(),
+               "drucker_prager, mohr_coulomb: c, of the place where a point is at the start [Pa]."},
+              {"Friction angle",
                "",
-               positive,
-               "von_mises: stress at which a bar in tension yields, sqrt(3/2) rho_y [Pa]."},
-              {"Hardening modulus",
+               allow.number(range(0, 90, false)).or_empty(),
+               "drucker_prager, mohr_coulomb: phi [deg]."},
+              {"Dilation angle",
                "0",
                allow.number(NumberRange::not_negative()),
-               "von_mises: growth of sigma_y with the equivalent plastic strain, H [Pa]; 0 is "
-               "perfect plasticity."}};
+               "drucker_prager, mohr_coulomb: psi, at most phi [deg]."},
+              {"Cone match",
+               "plane strain",
+               allow.one_of({"plane strain", "compression", "extension"}),
+               "drucker_prager: where its cone bears what Mohr and Coulomb's law does: in plane "
+               "strain, triaxial compression or extension."},
+              {"Apex rounding",
+               "0.1",
+               allow.number(part(false)),
+               "drucker_prager: e/k, by which its apex is rounded [-]."},
+              {"Tension cut-off",
+               "",
+               allow.number(part(true)).or_empty(),
+               "drucker_prager, mohr_coulomb: largest tension, mean or principal, over that of the "
+               "apex [-]; nothing: 0.8, or 1 of mohr_coulomb."}};
+    }
+
+    template <int dim>
+    std::vector<EntryDeclaration>
+    cam_clay(const ValuePatterns<dim> &allow)
+    {
+      const auto positive = allow.number(NumberRange::positive()).or_empty();
+      return {
+        {"Swelling slope",
+         "",
+         positive,
+         "modified_cam_clay: kappa, fall of the void ratio with ln p' in swelling [-]."},
+        {"Compression slope",
+         "",
+         positive,
+         "modified_cam_clay: lambda, the same in virgin compression [-]."},
+        {"Initial void ratio", "", positive, "modified_cam_clay: e_0 of the undeformed soil [-]."},
+        {"Reference pressure",
+         "1e3",
+         allow.number(NumberRange::positive()),
+         "modified_cam_clay: p', Kirchhoff's, at which its elastic strain counts as 0 [Pa]."}};
     }
 
     template <int dim>
@@ -73,13 +165,15 @@ namespace kedge
                "critical_state: its elastic law."},
               {"Preconsolidation pressure",
                "",
-               positive,
-               "critical_state: p_c, up to which pressure is elastic; does not harden [Pa]."},
+               allow.expression({"x", "y", "z"}, "x, y, z").or_empty(),
+               "critical_state, modified_cam_clay: p_c, up to which pressure is elastic [Pa]. Of "
+               "critical_state a number, which does not harden; of modified_cam_clay that at the "
+               "start, of the place."},
               {"Critical state slope",
                "",
                positive,
-               "critical_state: M, ||s|| over the effective pressure where the material flows at "
-               "constant volume; q/p' there is sqrt(3/2) M [-]."},
+               "Where the material flows at constant volume: of critical_state M = ||s||/p', so "
+               "that q/p' is sqrt(3/2) M; of modified_cam_clay M = q/p' [-]."},
               {"Surface alpha", "", part, "critical_state: alpha; 1 is Modified Cam Clay [-]."},
               {"Surface gamma",
                "",
@@ -106,11 +200,20 @@ namespace kedge
       SectionKind::named,
       {{"Model",
         "hencky",
-        allow.one_of({"hencky", "von_mises", "improved_hencky", "critical_state"}),
+        allow.one_of({"hencky",
+                      "von_mises",
+                      "improved_hencky",
+                      "critical_state",
+                      "tresca",
+                      "drucker_prager",
+                      "mohr_coulomb",
+                      "modified_cam_clay"}),
         "hencky: Kirchhoff stress linear in the logarithmic strain. von_mises: that, with "
         "associated plastic flow at a yield stress that hardens linearly. improved_hencky: soil "
         "that stiffens as its pores close and never closes them. critical_state: soil that yields "
-        "by the family of Collins and Hilder."},
+        "by the family of Collins and Hilder. tresca: clay sheared undrained. drucker_prager, "
+        "mohr_coulomb: soil with friction. modified_cam_clay: clay that hardens as it is "
+        "compressed."},
        {"Density",
         std::nullopt,
         allow.number(NumberRange::positive()),
@@ -118,9 +221,14 @@ namespace kedge
        {"Volume change",
         "pointwise",
         allow.one_of({"pointwise", "cell mean"}),
-        "Whose gives the pressure: a point's own, or the mean in a cell: does not lock. hencky and "
-        "von_mises."}}};
-    for (const auto &entries : {elasticity(allow), plasticity(allow), critical_state(allow)})
+        "Whose gives the pressure: a point's own, or the mean in a cell: does not lock. hencky, "
+        "von_mises and tresca."}}};
+    for (const auto &entries : {elasticity(allow),
+                                plasticity(allow),
+                                undrained_strength(allow),
+                                friction(allow),
+                                critical_state(allow),
+                                cam_clay(allow)})
       section.entries.insert(section.entries.end(), entries.begin(), entries.end());
     return section;
   }

@@ -65,6 +65,11 @@ namespace kedge
           three_controls.or_empty(),
           "Of x, y, z: strain(ln of the stretch from the consolidated state) or stress(total "
           "Cauchy, tension positive [Pa])."},
+         {"Initial pressure",
+          "0",
+          allow.number(NumberRange::not_negative()),
+          "Effective, isotropic, which the undeformed point bears, as by Initial stress of a "
+          "body [Pa]."},
          {"Consolidation pressure",
           "0",
           allow.number(NumberRange::not_negative()),
@@ -121,8 +126,9 @@ namespace kedge
     read_path(const SectionReader &section)
     {
       PathParameters path;
-      path.end     = section.number("End");
-      path.n_steps = section.whole_number("Steps");
+      path.end              = section.number("End");
+      path.n_steps          = section.whole_number("Steps");
+      path.initial_pressure = section.number("Initial pressure");
       read_control(section, path);
       if (path.kind == PathParameters::Kind::control)
         return path;

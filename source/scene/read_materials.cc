@@ -1,7 +1,9 @@
+#include <kedge/base/expression.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/read_materials.h>
 
 #include <cmath>
+#include <map>
 
 namespace kedge
 {
@@ -12,6 +14,30 @@ namespace kedge
     {
       if (section.is_empty(entry))
         throw section.error(entry, "Model " + model + " needs it.");
+    }
+
+    /** @p factor times a constant that may depend on the place; positive, or 0 if it @p
+     * may_be_zero. */
+    SpatialConstant
+    read_spatial(const SectionReader &section,
+                 const std::string   &entry,
+                 const double         factor      = 1.,
+                 const bool           may_be_zero = false)
+    {
+      const Expression expression(section.text(entry), {"x", "y", "z"}, section.constants());
+      SpatialConstant  constant(factor * expression({0., 0., 0.}));
+      constant.entry       = entry;
+      constant.may_be_zero = may_be_zero;
+      if (!expression.is_constant())
+        {
+          constant.expression = section.text(entry);
+          constant.factor     = factor;
+        }
+      else if (!(constant.value > 0. || (may_be_zero && constant.value == 0.)))
+        throw section.error(entry,
+                            may_be_zero ? "It must not be less than 0."
+                                        : "It must be greater than 0.");
+      return constant;
     }
 
     void
@@ -42,9 +68,52 @@ namespace kedge
         material.initial_porosity = section.number("Initial porosity");
     }
 
+    /** Refuses entries of other models. */
+    void
+    refuse(const SectionReader            &section,
+           const std::vector<std::string> &entries,
+           const std::string              &models)
+    {
+      for (const std::string &entry : entries)
+        if (!section.is_empty(entry))
+          throw section.error(entry, "It belongs to " + models + ".");
+    }
+
+    /** Tresca's and von Mises' clays; true if it is one. */
+    bool
+    read_undrained_strength(const SectionReader &section, MaterialParameters &material)
+    {
+      const std::string strength = "Undrained strength", model = section.text("Model");
+      const bool        is_tresca = model == "tresca";
+      if (is_tresca)
+        require(section, strength, model);
+      if (!is_tresca && (model != "von_mises" || section.is_empty(strength)))
+        {
+          refuse(section, {strength, "Softening cell size"}, "models tresca and von_mises");
+          if (section.number("Remoulded strength ratio") != 1.)
+            throw section.error("Remoulded strength ratio", "It belongs to Undrained strength.");
+          return false;
+        }
+      for (const std::string entry : {"Yield radius rho_y", "Uniaxial yield stress sigma_y"})
+        if (!section.is_empty(entry))
+          throw section.error(entry, "Only one of it and Undrained strength may be given.");
+      if (section.number("Hardening modulus") != 0.)
+        throw section.error("Hardening modulus",
+                            "With Undrained strength the material may soften, not harden.");
+      material.kind = is_tresca ? MaterialKind::tresca : MaterialKind::undrained_von_mises;
+      material.undrained_strength = read_spatial(section, strength);
+      material.remoulded_strength = section.number("Remoulded strength ratio");
+      material.softening_strain   = section.number("Softening shear strain");
+      if (!section.is_empty("Softening cell size"))
+        material.softening_cell_size = section.number("Softening cell size");
+      return true;
+    }
+
     void
     read_von_mises(const SectionReader &section, MaterialParameters &material)
     {
+      if (read_undrained_strength(section, material))
+        return;
       const std::string radius = "Yield radius rho_y", uniaxial = "Uniaxial yield stress sigma_y";
       if (section.text("Model") != "von_mises")
         {
@@ -61,14 +130,93 @@ namespace kedge
         }
       material.kind              = MaterialKind::von_mises;
       material.yield_stress      = first_is_given(section, radius, uniaxial)
-                                     ? std::sqrt(1.5) * section.number(radius)
-                                     : section.number(uniaxial);
+                                     ? read_spatial(section, radius, std::sqrt(1.5))
+                                     : read_spatial(section, uniaxial);
       material.hardening_modulus = section.number("Hardening modulus");
+    }
+
+    void
+    read_friction(const SectionReader &section, MaterialParameters &material)
+    {
+      const std::string cohesion = "Cohesion", friction = "Friction angle",
+                        dilation = "Dilation angle", cut_off = "Tension cut-off",
+                        model = section.text("Model");
+      if (model != "drucker_prager" && model != "mohr_coulomb")
+        {
+          refuse(section, {cohesion, friction, cut_off}, "models drucker_prager and mohr_coulomb");
+          if (section.number(dilation) != 0.)
+            throw section.error(dilation, "It belongs to models drucker_prager and mohr_coulomb.");
+          return;
+        }
+      static const std::map<std::string, ConeMatch> matches = {
+        {"plane strain", ConeMatch::plane_strain},
+        {"compression", ConeMatch::compression},
+        {"extension", ConeMatch::extension}};
+      const bool is_cone = model == "drucker_prager";
+      require(section, cohesion, model);
+      require(section, friction, model);
+      material.kind           = is_cone ? MaterialKind::drucker_prager : MaterialKind::mohr_coulomb;
+      material.cohesion       = read_spatial(section, cohesion, 1., true);
+      material.friction_angle = section.number(friction);
+      material.dilation_angle = section.number(dilation);
+      material.cone_match     = matches.at(section.text("Cone match"));
+      if (is_cone)
+        material.apex_rounding = section.number("Apex rounding");
+      material.tension_cut_off = !section.is_empty(cut_off) ? section.number(cut_off)
+                                 : is_cone                  ? 0.8
+                                                            : 1.;
+      if (material.dilation_angle > material.friction_angle)
+        throw section.error(dilation,
+                            "It must not be larger than the angle of friction, " +
+                              section.text(friction) +
+                              ": such a soil would make energy as it flows.");
+    }
+
+    /** Moduli and slopes of modified_cam_clay; true if it is one. */
+    bool
+    read_cam_clay(const SectionReader &section, MaterialParameters &material)
+    {
+      const std::string swelling = "Swelling slope", compression = "Compression slope",
+                        void_ratio = "Initial void ratio", pressure = "Preconsolidation pressure",
+                        slope = "Critical state slope", shear = "Shear modulus",
+                        model = "modified_cam_clay";
+      if (section.text("Model") != model)
+        {
+          refuse(section, {swelling, compression, void_ratio}, "model " + model);
+          return false;
+        }
+      for (const std::string &entry : {swelling, compression, void_ratio, pressure, slope, shear})
+        require(section, entry, model);
+      refuse(section,
+             {"Young's modulus", "Poisson's ratio", "Bulk modulus"},
+             "models of a constant bulk modulus; that of " + model + " is p'/kappa");
+      refuse(section, {"Surface alpha", "Surface gamma"}, "model critical_state");
+      constexpr double some_ratio   = 0.3; // of Poisson: the pair stands for the shear modulus
+      material.kind                 = MaterialKind::modified_cam_clay;
+      material.poisson_ratio        = some_ratio;
+      material.young_modulus        = 2. * (1. + some_ratio) * section.number(shear);
+      material.swelling_slope       = section.number(swelling);
+      material.compression_slope    = section.number(compression);
+      material.initial_void_ratio   = section.number(void_ratio);
+      material.critical_state_ratio = section.number(slope);
+      material.reference_pressure   = section.number("Reference pressure");
+      material.start_preconsolidation_pressure = read_spatial(section, pressure);
+      if (!(material.compression_slope > material.swelling_slope))
+        throw section.error(compression, "It must be larger than Swelling slope.");
+      const double porosity = material.initial_void_ratio / (1. + material.initial_void_ratio);
+      material.initial_porosity =
+        section.is_empty("Initial porosity") ? porosity : section.number("Initial porosity");
+      if (std::abs(material.initial_porosity - porosity) > 1e-3)
+        throw section.error("Initial porosity",
+                            "It is not e_0/(1 + e_0) of Initial void ratio; leave it out.");
+      return true;
     }
 
     void
     read_critical_state(const SectionReader &section, MaterialParameters &material)
     {
+      if (material.kind == MaterialKind::modified_cam_clay)
+        return;
       const std::string pressure = "Preconsolidation pressure", slope = "Critical state slope",
                         alpha = "Surface alpha", gamma = "Surface gamma";
       if (section.text("Model") != "critical_state")
@@ -83,7 +231,10 @@ namespace kedge
       const bool improved = section.text("Elasticity") == "improved_hencky";
       material.kind =
         improved ? MaterialKind::critical_state_improved : MaterialKind::critical_state;
-      material.preconsolidation_pressure = section.number(pressure);
+      const SpatialConstant p_c = read_spatial(section, pressure);
+      if (!p_c.expression.empty())
+        throw section.error(pressure, "Of critical_state it is the same everywhere.");
+      material.preconsolidation_pressure = p_c.value;
       material.critical_state_slope      = section.number(slope);
       material.surface_alpha             = section.number(alpha);
       material.surface_gamma             = section.number(gamma);
@@ -99,7 +250,9 @@ namespace kedge
           material.kind == MaterialKind::critical_state_improved)
         require(section, "Initial porosity", "improved_hencky");
       if (material.volume_change == VolumeChange::cell_mean &&
-          material.kind != MaterialKind::hencky && material.kind != MaterialKind::von_mises)
+          material.kind != MaterialKind::hencky && material.kind != MaterialKind::von_mises &&
+          material.kind != MaterialKind::tresca &&
+          material.kind != MaterialKind::undrained_von_mises)
         throw section.error("Volume change",
                             "Soils know but pointwise changes of volume; their pressure depends on "
                             "more than the mean one.");
@@ -122,12 +275,24 @@ namespace kedge
           material.volume_change = VolumeChange::cell_mean;
         if (section.text("Model") == "improved_hencky")
           material.kind = MaterialKind::improved_hencky;
-        read_elasticity(section, material);
+        if (!read_cam_clay(section, material))
+          read_elasticity(section, material);
         read_von_mises(section, material);
+        read_friction(section, material);
         read_critical_state(section, material);
         check_soil(section, material);
         materials.push_back(material);
       }
     return materials;
+  }
+
+
+
+  void
+  scale_softening(const double cell_size, std::vector<MaterialParameters> &materials)
+  {
+    for (MaterialParameters &material : materials)
+      if (material.softening_cell_size > 0.)
+        material.softening_strain *= material.softening_cell_size / cell_size;
   }
 } // namespace kedge

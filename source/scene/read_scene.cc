@@ -349,8 +349,13 @@ namespace kedge
     check_initial_stress(const ParameterReader &reader, const Scene<dim> &scene)
     {
       for (const BodyParameters<dim> &body : scene.bodies)
-        if (!body.initial_stress.empty() &&
-            scene.materials[body.material].volume_change == VolumeChange::cell_mean)
+        if (body.initial_stress.empty() &&
+            scene.materials[body.material].kind == MaterialKind::modified_cam_clay)
+          throw SectionReader(reader, {"Bodies", body.name})
+            .error("Initial stress",
+                   "Model modified_cam_clay cannot be without stress: give it one in compression.");
+        else if (!body.initial_stress.empty() &&
+                 scene.materials[body.material].volume_change == VolumeChange::cell_mean)
           throw SectionReader(reader, {"Bodies", body.name})
             .error("Initial stress",
                    "The volume change of material '" + scene.materials[body.material].name +
@@ -423,6 +428,7 @@ namespace kedge
     scene.grid            = read_grid<dim>(reader);
     scene.node_conditions = read_node_conditions<dim>(reader);
     scene.materials       = read_materials(reader);
+    scale_softening(scene.grid.extent[0] / scene.grid.n_cells[0], scene.materials);
     scene.bodies          = read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
     scene.contacts        = read_contacts(reader);
     scene.body_force      = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");

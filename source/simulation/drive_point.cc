@@ -4,6 +4,7 @@
 #include <kedge/simulation/drive_point.h>
 #include <kedge/stress/soil_test.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace kedge
@@ -17,7 +18,7 @@ namespace kedge
     {
     public:
       explicit Driver(const PathScene &scene)
-        : free_point(make_material(scene.material))
+        : free_point(scene.material, scene.path.initial_pressure)
       {
         if (scene.path.kind == PathParameters::Kind::control)
           test.emplace(scene.path, scene.material, scene.constants);
@@ -37,10 +38,16 @@ namespace kedge
         return test ? test->advance_to(t) : free_point.deform_to(path->deformation_gradient(t));
       }
 
+      const SinglePoint &
+      point() const
+      {
+        return test ? test->material_point() : free_point;
+      }
+
       const SinglePoint::State &
       state() const
       {
-        return test ? test->state() : free_point.state();
+        return point().state();
       }
 
       double
@@ -55,6 +62,20 @@ namespace kedge
       std::optional<SoilTest>   test;
     };
 
+    /** Columns of the law's history that have no place of their own in the row. */
+    std::vector<std::string>
+    further_columns(const MaterialParameters &material)
+    {
+      const std::vector<std::string> known = {"equivalent_plastic_strain",
+                                              "plastic_volume_strain",
+                                              "volume_strain"};
+      std::vector<std::string>       result;
+      for (const Column &column : columns_of(make_material(material)))
+        if (std::find(known.begin(), known.end(), column.name) == known.end())
+          result.push_back(column.name);
+      return result;
+    }
+
     /** What an element test adds to the row. */
     void
     write_soil(const Driver &driver, const MaterialParameters &material, CsvFile &file)
@@ -68,7 +89,7 @@ namespace kedge
       for (int i = 0; i < 3; ++i)
         file << stress[i][i] - driver.pore_pressure();
       file << driver.pore_pressure() << 0.5 * (stress[0][0] + stress[1][1]) - stress[2][2]
-           << state.plastic_volume_strain;
+           << driver.point().column("plastic_volume_strain");
       if (material.initial_porosity > 0.)
         {
           const double n = porosity(material.initial_porosity, J);
@@ -97,9 +118,11 @@ namespace kedge
       file << state.strain_energy;
       if (yields(make_material(scene.material)))
         file << state.hardening_energy << state.plastic_dissipation
-             << state.equivalent_plastic_strain;
+             << driver.point().column("equivalent_plastic_strain");
       if (scene.path.kind == PathParameters::Kind::control)
         write_soil(driver, scene.material, file);
+      for (const std::string &name : further_columns(scene.material))
+        file << driver.point().column(name);
       file.end_row();
     }
   } // namespace
@@ -136,6 +159,8 @@ namespace kedge
         if (scene.material.initial_porosity > 0.)
           names.insert(names.end(), {"porosity", "void_ratio"});
       }
+    for (const std::string &name : further_columns(scene.material))
+      names.push_back(name);
     return names;
   }
 

@@ -18,10 +18,22 @@ namespace kedge
       return result;
     }
 
+    /** The numbers in the columns of a law. */
+    template <int dim>
+    std::vector<double>
+    history_of(const PointState<dim> &state, const std::vector<unsigned int> &columns)
+    {
+      std::vector<double> result;
+      for (const unsigned int column : columns)
+        result.push_back(column == not_in_memory ? 0. : state.memory[column]);
+      return result;
+    }
+
     /** Stress, elastic frame and energy of a point in the reference configuration. */
     template <int dim>
     void
     set_state(const Material                      &material,
+              const std::vector<unsigned int>     &columns,
               const dealii::SymmetricTensor<2, 3> &stress,
               PointState<dim>                     &state)
     {
@@ -37,7 +49,8 @@ namespace kedge
       for (int k = 0; k < dim; ++k)
         principal[k] = axes[k].first;
 
-      const std::array<double, 3> strain = initial_elastic_strain(material, principal);
+      const std::vector<double>   history = history_of(state, columns);
+      const std::array<double, 3> strain  = initial_elastic_strain(material, principal, history);
       for (int k = 0; k < dim; ++k)
         for (int i = 0; i < dim; ++i)
           state.elastic_frame[i][k] = std::exp(strain[k]) * axes[k].second[i];
@@ -48,9 +61,13 @@ namespace kedge
           state.out_of_plane_kirchhoff_stress = stress[2][2];
         }
       const double values[3] = {strain[0], strain[1], strain[2]};
-      state.strain_energy    = std::visit(
+      std::visit(
         [&](const auto &law) {
-          return law.energy(values, MaterialHistory());
+          using Law           = std::decay_t<decltype(law)>;
+          const auto start    = read_history<Law>(history.data());
+          state.strain_energy = law.energy(values, start);
+          if constexpr (Law::yields)
+            state.hardening_energy = law.hardening_energy(start);
         },
         material);
     }
@@ -69,6 +86,9 @@ namespace kedge
     for (unsigned int b = 0; b < bodies.size(); ++b)
       for (const std::string &text : bodies[b].initial_stress)
         stresses[b].emplace_back(text, std::vector<std::string>{"x", "y", "z"}, constants);
+    std::vector<std::vector<unsigned int>> columns;
+    for (const Material &material : material_of_body)
+      columns.push_back(memory_indices(material));
     for (auto &point : points)
       {
         PointState<dim> &state = point.record.state;
@@ -80,7 +100,7 @@ namespace kedge
           x[d] = point.record.location[d];
         try
           {
-            set_state(material_of_body[body], evaluate(stresses[body], x), state);
+            set_state(material_of_body[body], columns[body], evaluate(stresses[body], x), state);
           }
         catch (const UserError &error)
           {

@@ -36,7 +36,7 @@ namespace kedge
       ForceStress<dim, Number>
       evaluate(const StressState<dim, Number> &state,
                const Number (&gradient)[dim][dim],
-               const MaterialHistoryOf<Number> &history,
+               const HistoryOf<Law, Number> &history,
                const Number &) const
       {
         return evaluate_force_stress<dim, with_tangent, rule>(material,
@@ -65,8 +65,8 @@ namespace kedge
       ForceStress<dim, Number>
       evaluate(const StressState<dim, Number> &state,
                const Number (&gradient)[dim][dim],
-               const MaterialHistoryOf<Number> &history,
-               const Number                    &strain) const
+               const HistoryOf<Law, Number> &history,
+               const Number                 &strain) const
       {
         return evaluate_mean_force_stress<dim, with_tangent, rule>(material,
                                                                    material.bulk_modulus * strain,

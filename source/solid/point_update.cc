@@ -10,9 +10,9 @@ namespace kedge
     /** Updates a point; if it is in a group, it takes the group's change of volume @p increment. */
     template <int dim, class Material, typename Number>
     Condition<Number>
-    update_one(const Material                  &material,
-               const StressState<dim, Number>  &state,
-               const MaterialHistoryOf<Number> &history,
+    update_one(const Material                    &material,
+               const StressState<dim, Number>    &state,
+               const HistoryOf<Material, Number> &history,
                const Number (&A)[dim][dim],
                const bool                grouped,
                const Number             &increment,
@@ -165,7 +165,9 @@ namespace kedge
 
   template <int dim>
   void
-  apply_point_update(const PointUpdate<dim> &update, PointState<dim> &state)
+  apply_point_update(const PointUpdate<dim>          &update,
+                     const std::vector<unsigned int> &columns,
+                     PointState<dim>                 &state)
   {
     dealii::Tensor<2, dim> dF;
     for (int i = 0; i < dim; ++i)
@@ -184,44 +186,48 @@ namespace kedge
       state.out_of_plane_elastic_stretch *= update.out_of_plane_stretch_factor;
     state.hardening_energy = update.hardening_energy;
     state.plastic_dissipation += update.dissipation;
-    state.equivalent_plastic_strain = update.equivalent_plastic_strain;
-    state.plastic_volume_strain     = update.plastic_volume_strain;
+    for (unsigned int c = 0; c < columns.size(); ++c)
+      if (columns[c] < most_memory_columns)
+        state.memory[columns[c]] = update.history[c];
   }
 
 
 
   template <int dim>
-  void
-  update_domains(const std::vector<PointState<dim> *> &states)
+  std::vector<dealii::Tensor<1, dim>>
+  stretches_along_axes(const std::vector<dealii::Tensor<2, dim>> &deformation_gradients)
   {
-    for (unsigned int begin = 0; begin < states.size();)
+    const unsigned int                  n = deformation_gradients.size();
+    std::vector<dealii::Tensor<1, dim>> result(n);
+    for (unsigned int begin = 0; begin < n;)
       {
-        const PackOfSlots slots(begin, states.size());
+        const PackOfSlots slots(begin, n);
         Pack              F[dim][dim], stretch[dim];
         for (unsigned int lane = 0; lane < pack_width; ++lane)
           for (int i = 0; i < dim; ++i)
             for (int j = 0; j < dim; ++j)
-              F[i][j].set(lane, states[slots.slot(lane)]->deformation_gradient[i][j]);
+              F[i][j].set(lane, deformation_gradients[slots.slot(lane)][i][j]);
         stretch_diagonal<dim>(F, stretch);
         for (unsigned int lane = 0; lane < slots.count; ++lane)
           for (int d = 0; d < dim; ++d)
-            {
-              PointState<dim> &state = *states[begin + lane];
-              state.half_lengths[d]  = state.reference_half_lengths[d] * stretch[d][lane];
-            }
+            result[begin + lane][d] = stretch[d][lane];
         begin += slots.count;
       }
+    return result;
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                           \
-  template unsigned int evaluate_point_updates(const std::vector<Material> &,            \
-                                               const StepPoints<dim> &,                  \
-                                               const LatticeWindow<dim> &,               \
-                                               const ActiveNodes<dim> &,                 \
-                                               const std::vector<double> &,              \
-                                               std::vector<PointUpdate<dim>> &);         \
-  template void         apply_point_update(const PointUpdate<dim> &, PointState<dim> &); \
-  template void         update_domains(const std::vector<PointState<dim> *> &);
+#define KEDGE_INSTANTIATE(dim)                                                                          \
+  template unsigned int                        evaluate_point_updates(const std::vector<Material> &,    \
+                                                                      const StepPoints<dim> &,          \
+                                                                      const LatticeWindow<dim> &,       \
+                                                                      const ActiveNodes<dim> &,         \
+                                                                      const std::vector<double> &,      \
+                                                                      std::vector<PointUpdate<dim>> &); \
+  template void                                apply_point_update(const PointUpdate<dim> &,             \
+                                                                  const std::vector<unsigned int> &,    \
+                                                                  PointState<dim> &);                   \
+  template std::vector<dealii::Tensor<1, dim>> stretches_along_axes(                                    \
+    const std::vector<dealii::Tensor<2, dim>> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 } // namespace kedge

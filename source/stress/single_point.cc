@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/materials/initial_strain.h>
 #include <kedge/stress/single_point.h>
 
 namespace kedge
@@ -19,11 +20,52 @@ namespace kedge
 
 
 
-  SinglePoint::SinglePoint(const Material &material)
+  SinglePoint::SinglePoint(const Material &material, const std::vector<double> &history)
     : material(material)
   {
+    AssertDimension(history.size(), columns_of(material).size());
+    present.history              = history;
     present.deformation_gradient = dealii::unit_symmetric_tensor<3>();
     present.elastic_frame        = dealii::unit_symmetric_tensor<3>();
+  }
+
+
+
+  SinglePoint::SinglePoint(const MaterialParameters &parameters, const double pressure)
+    : SinglePoint(make_material(parameters), start_history(make_material(parameters), parameters))
+  {
+    const double borne = pressure > 0. ? pressure : parameters.reference_pressure;
+    if (!(borne > 0.))
+      return;
+    const auto strain =
+      initial_elastic_strain(material, {{-borne, -borne, -borne}}, present.history);
+    for (int i = 0; i < 3; ++i)
+      {
+        present.elastic_frame[i][i]    = std::exp(strain[i]);
+        present.kirchhoff_stress[i][i] = -borne;
+      }
+    const double values[3] = {strain[0], strain[1], strain[2]};
+    std::visit(
+      [&](const auto &law) {
+        using Law             = std::decay_t<decltype(law)>;
+        const auto history    = read_history<Law>(present.history.data());
+        present.strain_energy = law.energy(values, history);
+        if constexpr (Law::yields)
+          present.hardening_energy = law.hardening_energy(history);
+      },
+      material);
+  }
+
+
+
+  double
+  SinglePoint::column(const std::string &name) const
+  {
+    const std::vector<Column> columns = columns_of(material);
+    for (unsigned int c = 0; c < columns.size(); ++c)
+      if (columns[c].name == name)
+        return present.history[c];
+    return 0.;
   }
 
 
@@ -39,16 +81,19 @@ namespace kedge
       for (int j = 0; j < 3; ++j)
         A[i][j] = gradient[i][j];
 
-    const StressState<3>  stress_state = make_stress_state<3>(present.elastic_frame,
+    const StressState<3> stress_state = make_stress_state<3>(present.elastic_frame,
                                                              1.,
                                                              present.deformation_gradient,
                                                              present.kirchhoff_stress);
-    const MaterialHistory history{present.equivalent_plastic_strain,
-                                  present.plastic_volume_strain,
-                                  std::log(determinant(present.deformation_gradient))};
+    std::vector<double>  history      = present.history;
+    const auto           columns      = columns_of(material);
+    for (unsigned int c = 0; c < columns.size(); ++c)
+      if (columns[c].kind == ColumnKind::volume_strain)
+        history[c] = std::log(determinant(present.deformation_gradient));
     return std::visit(
       [&](const auto &law) {
-        return update_point<3>(law, stress_state, history, A, update);
+        using Law = std::decay_t<decltype(law)>;
+        return update_point<3>(law, stress_state, read_history<Law>(history.data()), A, update);
       },
       material);
   }
@@ -71,8 +116,7 @@ namespace kedge
     present.strain_energy        = update.strain_energy;
     present.hardening_energy     = update.hardening_energy;
     present.plastic_dissipation += update.dissipation;
-    present.equivalent_plastic_strain = update.equivalent_plastic_strain;
-    present.plastic_volume_strain     = update.plastic_volume_strain;
+    std::copy_n(update.history, present.history.size(), present.history.begin());
   }
 
 

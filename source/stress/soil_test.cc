@@ -24,7 +24,7 @@ namespace kedge
     : parameters(parameters)
     , initial_porosity(material.initial_porosity)
     , stiffness(p_wave_modulus(make_material(material)))
-    , point(make_material(material))
+    , point(material, parameters.initial_pressure)
   {
     for (const AxisControl &axis : parameters.control)
       expressions.emplace_back(axis.expression, std::vector<std::string>{"t"}, constants);

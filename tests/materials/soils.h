@@ -41,11 +41,33 @@ namespace kedge::test
                      (tau[2] + P) * (tau[2] + P));
   }
 
+  /** A history of any of the soils' laws. */
+  struct SoilHistory
+  {
+    double equivalent_plastic_strain = 0., plastic_volume_strain = 0., volume_strain = 0.;
+
+    template <class Elasticity>
+    using Yielding = HistoryOf<CriticalState<Elasticity>>;
+
+    operator Yielding<Hencky>() const
+    {
+      return {equivalent_plastic_strain, plastic_volume_strain, volume_strain};
+    }
+    operator Yielding<ImprovedHencky>() const
+    {
+      return {equivalent_plastic_strain, plastic_volume_strain, volume_strain};
+    }
+    operator ImprovedHencky::History<double>() const
+    {
+      return {volume_strain};
+    }
+  };
+
   /** A committed state and a step from it, in principal axes. */
   struct SoilStep
   {
-    double          strain[3], increment[3];
-    MaterialHistory history;
+    double      strain[3], increment[3];
+    SoilHistory history;
   };
 
   /** Strains of the order of @p strain, mostly compressed, and steps of the order of @p step. */

@@ -79,7 +79,9 @@ namespace
               pores.rate_change.push_back(random.uniform(-1., 1.));
             }
         }
-      points.history.resize(points.size());
+      points.n_history = n_columns<VonMises>;
+      for (unsigned int slot = 0; slot < points.size(); ++slot)
+        points.history.insert(points.history.end(), {0., 0.4}); // alpha, sigma_y
       constant = cloud.random_nodal(1., 3);
       for (unsigned int slot = 0; slot < points.size(); slot += 5)
         {

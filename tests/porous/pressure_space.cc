@@ -170,7 +170,9 @@ namespace
           pores.rate.push_back(random.uniform(-1., 1.));
           pores.rate_change.push_back(random.uniform(-1., 1.));
         }
-      points.history.resize(points.size());
+      points.n_history = n_columns<VonMises>;
+      for (unsigned int slot = 0; slot < points.size(); ++slot)
+        points.history.insert(points.history.end(), {0., 0.4}); // alpha, sigma_y
       matrix.reinit(c.nodes.n_local(), dim + 1, 2);
       equations.reinit(c.grid, c.nodes, c.ties, c.status, matrix);
     }

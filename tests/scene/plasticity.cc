@@ -67,6 +67,67 @@ end
   }
 } // namespace
 
+TEST(ScenePlasticity, StrengthsMayDependOnThePlace)
+{
+  const auto read = [](const std::string &text) {
+    return read_scene<2>(parse(text)).materials[1];
+  };
+  const auto clay = read(with_stiff("set Model = tresca\n"
+                                    "    set Undrained strength = h*1e3*(5 - y)\n"
+                                    "    set Remoulded strength ratio = 0.25"));
+  EXPECT_EQ(clay.kind, MaterialKind::tresca);
+  EXPECT_EQ(clay.undrained_strength.expression, "h*1e3*(5 - y)");
+  EXPECT_EQ(clay.undrained_strength.entry, "Undrained strength");
+  EXPECT_EQ(clay.remoulded_strength, 0.25);
+  // a number is one
+  EXPECT_EQ(read(with_stiff("set Model = tresca\n    set Undrained strength = 2e4"))
+              .undrained_strength.expression,
+            "");
+  // von Mises takes a strength of clay or a yield stress
+  EXPECT_EQ(read(with_stiff("set Model = von_mises\n    set Undrained strength = 2e4")).kind,
+            MaterialKind::undrained_von_mises);
+  expect_parts(message_of(with_stiff("set Model = von_mises\n    set Undrained strength = 2e4\n"
+                                     "    set Yield radius rho_y = 1e6")),
+               {"Yield radius rho_y = 1e6", "Only one"});
+  expect_parts(message_of(with_stiff("set Model = tresca")),
+               {"Materials/stiff/Undrained strength", "Model tresca needs it"});
+  expect_parts(message_of(with_stiff("set Model = tresca\n    set Undrained strength = -1")),
+               {"Undrained strength = -1", "greater than 0"});
+  expect_parts(message_of(with_stiff("set Model = tresca\n    set Undrained strength = z*q")),
+               {"Undrained strength = z*q", "an expression of x, y, z"});
+  expect_parts(message_of(with_stiff("set Undrained strength = 1e3")),
+               {"Undrained strength = 1e3", "belongs to models tresca and von_mises"});
+}
+
+TEST(ScenePlasticity, ShearBandsOfSomeCellsScaleTheSoftening)
+{
+  const auto read = [](const std::string &lines) {
+    return read_scene<2>(parse(with_stiff("set Model = tresca\n    set Undrained strength = 1e4\n"
+                                          "    set Softening shear strain = 6" +
+                                          lines)))
+      .materials[1];
+  };
+  EXPECT_EQ(read("").softening_strain, 6.);
+  const auto   scene = read_scene<2>(parse(with_stiff("set Model = hencky")));
+  const double edge  = scene.grid.extent[0] / scene.grid.n_cells[0];
+  EXPECT_DOUBLE_EQ(read("\n    set Softening cell size = 0.3").softening_strain, 6. * 0.3 / edge);
+}
+
+TEST(ScenePlasticity, SandMustNotDilateMoreThanItRubs)
+{
+  const std::string sand     = "set Model = drucker_prager\n    set Cohesion = 1e3\n"
+                               "    set Friction angle = 30\n    set Dilation angle = ";
+  const auto        material = read_scene<2>(parse(with_stiff(sand + "30"))).materials[1];
+  EXPECT_EQ(material.kind, MaterialKind::drucker_prager);
+  EXPECT_EQ(material.tension_cut_off, 0.8);
+  EXPECT_EQ(material.apex_rounding, 0.1);
+  expect_parts(message_of(with_stiff(sand + "31")),
+               {"Dilation angle = 31", "larger than the angle of friction, 30", "make energy"});
+  expect_parts(message_of(with_stiff("set Dilation angle = 5")), {"Dilation angle = 5", "belongs"});
+  expect_parts(message_of(with_stiff("set Model = mohr_coulomb\n    set Cohesion = 1e3")),
+               {"Friction angle", "Model mohr_coulomb needs it"});
+}
+
 TEST(ScenePlasticity, TheYieldStressIsGivenInOneOfTwoWays)
 {
   // sigma_y = sqrt(3/2) rho_y
@@ -77,11 +138,11 @@ TEST(ScenePlasticity, TheYieldStressIsGivenInOneOfTwoWays)
                                          "    set Yield radius rho_y = h*2e6\n"
                                          "    set Hardening modulus = 3e5"));
   EXPECT_EQ(by_radius.kind, MaterialKind::von_mises);
-  EXPECT_NEAR(by_radius.yield_stress, 2449489.742783178, 1e-8);
+  EXPECT_NEAR(by_radius.yield_stress.value, 2449489.742783178, 1e-8);
   EXPECT_EQ(by_radius.hardening_modulus, 3e5);
   const auto by_stress =
     read(with_stiff("set Model = von_mises\n    set Uniaxial yield stress sigma_y = 2e6"));
-  EXPECT_EQ(by_stress.yield_stress, 2e6);
+  EXPECT_EQ(by_stress.yield_stress.value, 2e6);
   EXPECT_EQ(by_stress.hardening_modulus, 0.);
   EXPECT_EQ(read(full_scene).kind, MaterialKind::hencky);
 }

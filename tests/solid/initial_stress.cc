@@ -68,7 +68,7 @@ TYPED_TEST(SolidInitialStress, StaysWhereNothingMoves)
       PointUpdate<dim> update;
       ASSERT_TRUE(std::visit(
         [&](const auto &law) {
-          return bool(update_point<dim>(law, stress, MaterialHistory(), at_rest, update));
+          return bool(update_point<dim>(law, stress, {}, at_rest, update));
         },
         material));
       for (int s = 0; s < n_symmetric<dim>; ++s)

@@ -27,6 +27,8 @@ namespace
                               alpha);
   }
 
+  constexpr double yield_stress = 0.02;
+
   /** Both bodies yield and harden. */
   template <int dim>
   InternalForce<dim>
@@ -38,7 +40,7 @@ namespace
         MaterialParameters parameters;
         parameters.young_modulus     = body == 0 ? 2.6 : 5.;
         parameters.poisson_ratio     = body == 0 ? 0.3 : 0.;
-        parameters.yield_stress      = 0.02;
+        parameters.yield_stress      = yield_stress;
         parameters.hardening_modulus = body == 0 ? 0.5 : 2.;
         materials.emplace_back(VonMises(parameters));
       }
@@ -53,7 +55,8 @@ namespace
   void
   give_history(const InternalForce<dim> &internal, StepPoints<dim> &points)
   {
-    points.history.resize(points.size());
+    points.n_history = n_columns<VonMises>;
+    points.history.resize(points.size() * points.n_history);
     for (const auto &batch : points.batches)
       for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
         {
@@ -65,8 +68,10 @@ namespace
           for (const double principal : tau)
             square += std::pow(principal - (tau[0] + tau[1] + tau[2]) / 3., 2);
           const double gap = points.id[slot] % 2 == 0 ? 0. : 0.1;
-          points.history[slot].equivalent_plastic_strain =
-            (std::sqrt(1.5 * square) + gap - material.yield_stress) / material.hardening_modulus;
+          write_history<VonMises>({(std::sqrt(1.5 * square) + gap - yield_stress) /
+                                     material.hardening_modulus,
+                                   yield_stress},
+                                  &points.history[slot * points.n_history]);
         }
   }
 

@@ -43,10 +43,10 @@ namespace
     double          size;
     Start           start;
 
-    MaterialHistory
+    VonMises::History<double>
     history() const
     {
-      return {point.equivalent_plastic_strain};
+      return remembered(material, point);
     }
   };
 
@@ -256,7 +256,7 @@ TYPED_TEST(StressPlastic, UpdateCommitsTheReferencesEnd)
       EXPECT_NEAR(update.strain_energy, static_cast<double>(end.elastic_energy), tolerance);
       EXPECT_NEAR(update.hardening_energy, static_cast<double>(end.hardening_energy), tolerance);
       EXPECT_NEAR(update.dissipation, static_cast<double>(end.dissipation), tolerance);
-      EXPECT_NEAR(update.equivalent_plastic_strain,
+      EXPECT_NEAR(read_history<VonMises>(update.history).equivalent_plastic_strain,
                   static_cast<double>(end.equivalent_plastic_strain),
                   tolerance);
       EXPECT_NEAR(update.out_of_plane_stress,

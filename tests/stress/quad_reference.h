@@ -3,7 +3,7 @@
 #ifndef kedge_tests_stress_quad_reference_h
 #define kedge_tests_stress_quad_reference_h
 
-#include <kedge/materials/von_mises.h>
+#include <kedge/materials/material.h>
 #include <kedge/points/point_state.h>
 #include <kedge/stress/force_stress.h>
 
@@ -141,11 +141,12 @@ namespace kedge::reference
     return combine(1 << n_roots, sum, 0, sum);
   }
 
-  /** A committed state: b^e_n, b_n of the total deformation, and alpha_n. */
+  /** A committed state: b^e_n, b_n of the total deformation, alpha_n and sigma_y. */
   struct State
   {
     Matrix elastic_left_cauchy_green, left_cauchy_green;
     Quad   equivalent_plastic_strain = 0;
+    Quad   yield_stress              = 0;
   };
 
   /** What a point can say of one state of strain. */
@@ -225,8 +226,8 @@ namespace kedge::reference
     const Matrix s =
       combine(1, trial.kirchhoff_stress, -trace(trial.kirchhoff_stress) / 3, Matrix::identity());
     const Quad norm = sqrt(contract(s, s)), root = sqrt(Quad(2) / 3);
-    const Quad excess = norm - root * (material.yield_stress + Quad(material.hardening_modulus) *
-                                                                 state.equivalent_plastic_strain);
+    const Quad excess     = norm - root * (state.yield_stress + Quad(material.hardening_modulus) *
+                                                              state.equivalent_plastic_strain);
     const Quad multiplier = excess > 0 ? excess / (2 * Quad(material.elastic.shear_modulus) +
                                                    2 * Quad(material.hardening_modulus) / 3)
                                        : Quad(0);
@@ -237,7 +238,7 @@ namespace kedge::reference
                                          : trial;
     answer.equivalent_plastic_strain = state.equivalent_plastic_strain + root * multiplier;
     answer.hardening_energy          = hardening_energy(material, answer.equivalent_plastic_strain);
-    answer.dissipation               = material.yield_stress * root * multiplier;
+    answer.dissipation               = state.yield_stress * root * multiplier;
     return answer;
   }
 
@@ -306,7 +307,10 @@ namespace kedge::reference
         }
     if (dim == 2)
       B[2][2] = point.out_of_plane_elastic_stretch;
-    return {B * transpose(B), F * transpose(F), point.equivalent_plastic_strain};
+    return {B * transpose(B),
+            F * transpose(F),
+            point.memory[memory_index("equivalent_plastic_strain")],
+            point.memory[memory_index("yield_stress")]};
   }
 
   template <int dim>

@@ -2,8 +2,8 @@
 #ifndef kedge_tests_stress_random_states_h
 #define kedge_tests_stress_random_states_h
 
-#include <kedge/materials/von_mises.h>
 #include <kedge/fields/step_points.h>
+#include <kedge/materials/material.h>
 
 #include <random>
 #include <string>
@@ -29,6 +29,30 @@ namespace kedge::test
   {
     const char *names[] = {"apart", "nearly equal", "equal", "identity"};
     return names[static_cast<int>(spectrum)];
+  }
+
+  /** Writes the history of a law into the memory of a point. */
+  template <class Law, int dim>
+  void
+  remember(const Law &law, const HistoryOf<Law> &history, PointState<dim> &state)
+  {
+    double values[most_law_columns] = {};
+    write_history<Law>(history, values);
+    const auto columns = memory_indices(law);
+    for (unsigned int c = 0; c < columns.size(); ++c)
+      state.memory[columns[c]] = values[c];
+  }
+
+  /** The reverse of remember(). */
+  template <class Law, int dim>
+  HistoryOf<Law>
+  remembered(const Law &law, const PointState<dim> &state)
+  {
+    double     values[most_law_columns] = {};
+    const auto columns                  = memory_indices(law);
+    for (unsigned int c = 0; c < columns.size(); ++c)
+      values[c] = state.memory[columns[c]];
+    return read_history<Law>(values);
   }
 
   template <int dim>
@@ -135,13 +159,14 @@ namespace kedge::test
         square += (principal - pressure) * (principal - pressure);
       const double yield_stress = std::sqrt(1.5) * (std::sqrt(square) + gap);
 
-      MaterialParameters parameters   = elasticity;
-      parameters.hardening_modulus    = hardening;
-      state.equivalent_plastic_strain = 0.;
+      MaterialParameters parameters = elasticity;
+      parameters.hardening_modulus  = hardening;
+      VonMises::History<double> history;
       if (hardening > 0.)
-        state.equivalent_plastic_strain =
+        history.equivalent_plastic_strain =
           std::min(uniform(0., 0.3), 0.5 * yield_stress / hardening);
-      parameters.yield_stress = yield_stress - hardening * state.equivalent_plastic_strain;
+      history.yield_stress = yield_stress - hardening * history.equivalent_plastic_strain;
+      remember(VonMises(parameters), history, state);
       return VonMises(parameters);
     }
 

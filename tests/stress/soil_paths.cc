@@ -9,12 +9,12 @@ using namespace kedge;
 
 namespace
 {
-  Material
+  MaterialParameters
   improved_soil()
   {
     MaterialParameters parameters = test::soil();
     parameters.kind               = MaterialKind::critical_state_improved;
-    return make_material(parameters);
+    return parameters;
   }
 
   /** Strains a along z and r across it. */

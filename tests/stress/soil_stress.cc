@@ -16,20 +16,38 @@ using namespace kedge::test;
 namespace
 {
   /** A committed state and a step. */
-  template <int dim>
+  template <int dim, class Material>
   struct Step
   {
-    StressState<dim> state;
-    MaterialHistory  history;
-    double           energy; ///< elastic and frozen [J/m^3]
-    double           A[dim][dim];
+    StressState<dim>    state;
+    HistoryOf<Material> history;
+    double              energy; ///< elastic and frozen [J/m^3]
+    double              A[dim][dim];
   };
 
+  /** Constants of place of the laws that have them: s_u 20 kPa, c 10 kPa, p_c 100 kPa. */
+  template <class Material>
+  HistoryOf<Material>
+  start_of(const double volume_strain)
+  {
+    MaterialParameters parameters;
+    parameters.undrained_strength              = 2e4;
+    parameters.cohesion                        = 1e4;
+    parameters.start_preconsolidation_pressure = 1e5;
+    const auto constants                       = Material::constants(parameters);
+    double     values[most_law_columns]        = {};
+    for (unsigned int c = 0; c < n_columns<Material>; ++c)
+      values[c] = Material::columns[c].kind == ColumnKind::volume_strain ? volume_strain
+                  : constants[c] != nullptr                              ? constants[c]->value
+                                                                         : 0.;
+    return read_history<Material>(values);
+  }
+
   template <int dim, class Material>
-  Step<dim>
+  Step<dim, Material>
   random_step(const Material &material, RandomStates<dim> &random, const double size)
   {
-    Step<dim>                    step;
+    Step<dim, Material>          step;
     const dealii::Tensor<2, dim> V = random.rotation(), Q = random.rotation(),
                                  R = random.rotation();
     dealii::Tensor<2, dim> B, F;
@@ -49,8 +67,8 @@ namespace
     // a step of nothing puts the state on the surface if it lies outside
     double           none[dim][dim] = {};
     PointUpdate<dim> update;
-    step.history.volume_strain = std::log(determinant(F));
-    step.state = make_stress_state<dim>(B, 0.999, F, dealii::SymmetricTensor<2, dim>());
+    step.history = start_of<Material>(std::log(determinant(F)));
+    step.state   = make_stress_state<dim>(B, 0.999, F, dealii::SymmetricTensor<2, dim>());
     EXPECT_TRUE(update_point<dim>(material, step.state, step.history, none, update));
     dealii::SymmetricTensor<2, dim> tau;
     for (int i = 0; i < dim; ++i)
@@ -59,17 +77,16 @@ namespace
           B[i][j]   = update.elastic_frame[i][j];
           tau[i][j] = update.kirchhoff_stress[symmetric_index<dim>(i, j)];
         }
-    step.state = make_stress_state<dim>(B, 0.999 * update.out_of_plane_stretch_factor, F, tau);
-    step.history.equivalent_plastic_strain = update.equivalent_plastic_strain;
-    step.history.plastic_volume_strain     = update.plastic_volume_strain;
-    step.energy                            = update.strain_energy + update.hardening_energy;
+    step.state   = make_stress_state<dim>(B, 0.999 * update.out_of_plane_stretch_factor, F, tau);
+    step.history = read_history<Material>(update.history);
+    step.energy  = update.strain_energy + update.hardening_energy;
     random.step(size, step.A);
     return step;
   }
 
   template <int dim, StressRule rule, bool with_tangent, class Material>
   ForceStress<dim>
-  evaluate(const Material &material, const Step<dim> &step, const double alpha)
+  evaluate(const Material &material, const Step<dim, Material> &step, const double alpha)
   {
     return evaluate_force_stress<dim, with_tangent, rule>(material,
                                                           step.state,
@@ -78,10 +95,47 @@ namespace
                                                           step.history);
   }
 
+  /** Stiff soils that yield at strains of about 1e-3. */
+  MaterialParameters
+  yielding(const double dilation)
+  {
+    MaterialParameters parameters   = soil();
+    parameters.remoulded_strength   = 0.3;
+    parameters.softening_strain     = 0.5;
+    parameters.friction_angle       = 30.;
+    parameters.dilation_angle       = dilation;
+    parameters.apex_rounding        = 0.1;
+    parameters.tension_cut_off      = 0.8;
+    parameters.swelling_slope       = 0.02;
+    parameters.compression_slope    = 0.2;
+    parameters.initial_void_ratio   = 1.;
+    parameters.critical_state_ratio = 1.;
+    parameters.reference_pressure   = 8e4;
+    return parameters;
+  }
+
+  /** Calls check with each of the laws. */
+  template <typename Check>
+  void
+  for_yielding_laws(const Check &check)
+  {
+    check(Tresca(yielding(0.)));
+    check(UndrainedVonMises(yielding(0.)));
+    for (const double dilation : {0., 10., 30.})
+      {
+        check(DruckerPrager(yielding(dilation)));
+        check(MohrCoulomb(yielding(dilation)));
+      }
+    check(ModifiedCamClay(yielding(0.)));
+  }
+
   /** Largest error of dP/dA against central differences with @p h, of the largest entry. */
   template <int dim, StressRule rule, class Material>
   double
-  tangent_error(const Material &material, Step<dim> step, const double alpha, const double h)
+  tangent_error(const Material     &material,
+                Step<dim, Material> step,
+                const double        alpha,
+                const double        h)
   {
     const auto at    = evaluate<dim, rule, true>(material, step, alpha);
     double     error = 0., size = 0.;
@@ -114,7 +168,7 @@ namespace
     for (const double size : {3e-3, 3e-4})
       for (int repeat = 0; repeat < 40; ++repeat)
         {
-          const Step<dim>  step = random_step<dim>(material, random, size);
+          const auto       step = random_step<dim>(material, random, size);
           PointUpdate<dim> update;
           ASSERT_TRUE(update_point<dim>(material, step.state, step.history, step.A, update));
           n_plastic += update.dissipation > 0.;
@@ -142,8 +196,8 @@ namespace
     for (const double size : {1e-2, 1e-3, 1e-4, 1e-5})
       for (int repeat = 0; repeat < 20; ++repeat)
         {
-          const Step<dim> step  = random_step<dim>(material, random, size);
-          const auto      force = evaluate<dim, StressRule::conserving, false>(material, step, 0.5);
+          const auto step  = random_step<dim>(material, random, size);
+          const auto force = evaluate<dim, StressRule::conserving, false>(material, step, 0.5);
           PointUpdate<dim> end;
           ASSERT_TRUE(force.valid);
           ASSERT_TRUE(update_point<dim>(material, step.state, step.history, step.A, end));
@@ -186,8 +240,20 @@ TEST(StressSoil, TangentsOfCriticalStateOnTheImprovedLaw)
   check_tangents<3>(CriticalState<ImprovedHencky>(soil()));
 }
 
+TEST(StressSoil, TangentsOfLawsThatDissipateAllPlasticWorkOrHarden)
+{
+  for_yielding_laws([](const auto &law) {
+    check_tangents<2>(law);
+    check_tangents<3>(law);
+  });
+}
+
 TEST(StressSoil, ConservingStressWorksWhatIsStoredAndDissipated)
 {
+  for_yielding_laws([](const auto &law) {
+    check_work<2>(law);
+    check_work<3>(law);
+  });
   check_work<2>(ImprovedHencky(soil()));
   check_work<3>(ImprovedHencky(soil()));
   check_work<2>(CriticalState<Hencky>(soil()));
@@ -200,7 +266,7 @@ TEST(StressSoil, AStepThatWouldCloseThePoresFails)
 {
   RandomStates<3>      random(61);
   const ImprovedHencky material(soil());
-  Step<3>              step = random_step<3>(material, random, 0.);
+  auto                 step = random_step<3>(material, random, 0.);
   for (int i = 0; i < 3; ++i)
     step.A[i][i] = -0.1; // det = 0.729 < 0.8 = 1 - n_0
   PointUpdate<3> update;

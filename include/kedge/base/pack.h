@@ -169,6 +169,13 @@ namespace kedge
   {
     return condition ? yes : no;
   }
+  /** Of other numbers, such as those of more digits. */
+  template <typename Number>
+  inline Number
+  select(const bool condition, const Number &yes, const Number &no)
+  {
+    return condition ? yes : no;
+  }
   inline bool
   any(const bool condition)
   {

@@ -74,16 +74,23 @@ namespace kedge
     return result;
   }
 
-  /** Histories of the points; of no use to a Material without one. */
+  /** Histories of the points, whose body is of this Material: all its columns. */
   template <class Material, int dim>
-  inline MaterialHistoryOf<Pack>
+  inline HistoryOf<Material, Pack>
   pack_of_histories(const StepPoints<dim> &points, const PackOfSlots &slots)
   {
-    MaterialHistoryOf<Pack> result{};
-    if constexpr (Material::has_history)
-      for (unsigned int lane = 0; lane < pack_width; ++lane)
-        result.equivalent_plastic_strain
-          .set(lane, points.history[slots.slot(lane)].equivalent_plastic_strain);
+    HistoryOf<Material, Pack> result{};
+    if constexpr (has_columns<Material>)
+      {
+        static_assert(sizeof(result) == n_columns<Material> * sizeof(Pack), "a Number per column");
+        auto *target = reinterpret_cast<double *>(&result);
+        for (unsigned int lane = 0; lane < pack_width; ++lane)
+          {
+            const double *values = points.history_values(slots.slot(lane));
+            for (unsigned int c = 0; c < n_columns<Material>; ++c)
+              target[c * pack_width + lane] = values[c];
+          }
+      }
     return result;
   }
 } // namespace kedge

@@ -8,6 +8,9 @@
 
 namespace kedge
 {
+  /** For each body, where the columns of its law's history stand in PointState::memory. */
+  using MemoryColumns = std::vector<std::vector<unsigned int>>;
+
   /**
    * What a step needs of the material points, in contiguous arrays: slot k
    * of every array is the same point. It is filled from the committed history
@@ -40,10 +43,11 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> velocity;     ///< [m/s]
     std::vector<dealii::Tensor<1, dim>> acceleration; ///< [m/s^2]
     std::vector<StressState<dim>>       stress_state;
-    std::vector<MaterialHistory>        history; ///< empty if no material has one
-    std::vector<unsigned int>           slot_of; ///< of each point in the cloud's order, or no_slot
-    unsigned int                        n_cells = 0; ///< cells with points
-    std::vector<unsigned int>           loaded;      ///< slots of the points that carry loads
+    std::vector<double>                 history;       ///< of the laws, see history_of()
+    unsigned int                        n_history = 0; ///< numbers per slot in history
+    std::vector<unsigned int>           slot_of;       ///< of each point in the cloud's order, or no_slot
+    unsigned int                        n_cells = 0;   ///< cells with points
+    std::vector<unsigned int>           loaded;        ///< slots of the points that carry loads
 
     /** Slot of the points of other fields' bodies. */
     static constexpr unsigned int no_slot = static_cast<unsigned int>(-1);
@@ -59,27 +63,33 @@ namespace kedge
 
     /**
      * Reads the cloud; @p basis_of_body says which stencil each body uses,
-     * @p with_history whether any material has a history, @p shared_volume
-     * whose points share their change of volume (empty: nobody's), @p members
-     * which bodies' points to take (empty: all).
+     * @p columns_of_body where the columns of a body's history stand in
+     * PointState::memory (most_memory_columns or more: it is ln det F; empty:
+     * no body has a history), @p shared_volume whose points share their change
+     * of volume (empty: nobody's), @p members which bodies' points to take
+     * (empty: all).
      */
     void
     reinit(const BackgroundGrid<dim>    &grid,
            const MaterialPoints<dim>    &points,
            const std::vector<BasisKind> &basis_of_body,
-           const bool                    with_history  = false,
-           const std::vector<bool>      &shared_volume = {},
-           const std::vector<bool>      &members       = {});
+           const MemoryColumns          &columns_of_body = {},
+           const std::vector<bool>      &shared_volume   = {},
+           const std::vector<bool>      &members         = {});
 
-    /** History of the point in a slot; of no use to a Material without one. */
+    /** Numbers of the history of the point in a slot, in the columns of its body's law. */
+    const double *
+    history_values(const unsigned int slot) const
+    {
+      return history.data() + std::size_t(slot) * n_history;
+    }
+
+    /** History of the point in a slot whose body is of this Material. */
     template <class Material>
-    MaterialHistory
+    HistoryOf<Material>
     history_of(const unsigned int slot) const
     {
-      if constexpr (Material::has_history)
-        return history[slot];
-      else
-        return {};
+      return read_history<Material>(history_values(slot));
     }
 
     /** Whether the points of a batch share their change of volume. */
@@ -100,6 +110,12 @@ namespace kedge
     reached_nodes(const LatticeWindow<dim> &window) const;
 
   private:
+    void
+    resize(const unsigned int n);
+    void
+    set_history(const unsigned int               slot,
+                const PointState<dim>           &state,
+                const std::vector<unsigned int> &columns);
     void
     find_order(const BackgroundGrid<dim>       &grid,
                const std::vector<unsigned int> &cell,

@@ -4,6 +4,7 @@
 #include <kedge/points/point_state.h>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,7 @@ namespace kedge
     std::string meaning;
     FieldShape  shape;
     bool        integer; ///< its values are whole numbers (id, body)
-    void (*evaluate)(const PointRecord<dim> &point, double *values);
+    std::function<void(const PointRecord<dim> &point, double *values)> evaluate;
 
     std::vector<Component>
     components() const;

@@ -45,12 +45,30 @@ namespace kedge
   class CriticalState
   {
   public:
-    static constexpr bool has_history          = true;
     static constexpr bool yields               = true;
     static constexpr bool can_fail             = true;
     static constexpr bool decoupled_volume     = false;
     static constexpr bool takes_packs          = false;
     static constexpr bool stress_is_work_slope = false;
+
+    static constexpr std::array<Column, 3> columns{
+      {{"equivalent_plastic_strain", "-", "accumulated"},
+       {"plastic_volume_strain", "-", "positive where the pores open"},
+       {"volume_strain", "-", "ln det F", ColumnKind::volume_strain}}};
+
+    template <typename Number>
+    struct History
+    {
+      Number equivalent_plastic_strain = 0.; ///< alpha [-]
+      Number plastic_volume_strain     = 0.; ///< eps_v^p, positive where the pores open [-]
+      Number volume_strain             = 0.; ///< eps_v = ln det F, elastic and plastic [-]
+    };
+
+    static std::array<const SpatialConstant *, 3>
+    constants(const MaterialParameters &)
+    {
+      return {};
+    }
 
     /** What the law answers to a principal trial strain. */
     struct Response
@@ -77,7 +95,7 @@ namespace kedge
     Response
     respond(const double (&strain_n)[3],
             const double (&increment)[3],
-            const MaterialHistory &history) const;
+            const History<double> &history) const;
 
     /** d tau'_i / d eps^tr_j [Pa], consistent with the return; unsymmetric. */
     double
@@ -88,9 +106,9 @@ namespace kedge
              r.secant_shear * ((i == j ? 1. : 0.) - 1. / 3.);
     }
 
-    /** (tau_i - tau_j) / (eps^tr_i - eps^tr_j) of any two principal directions [Pa]. */
+    /** (tau_i - tau_j) / (eps^tr_i - eps^tr_j) of two principal directions [Pa]. */
     double
-    secant_shear(const Response &r) const
+    secant_shear(const Response &r, const int, const int) const
     {
       return r.secant_shear;
     }
@@ -105,9 +123,9 @@ namespace kedge
 
     /** Elastic free energy [J/m^3]; the history gives ln J of the same state. */
     double
-    energy(const double (&elastic_strain)[3], const MaterialHistory &history) const
+    energy(const double (&elastic_strain)[3], const History<double> &history) const
     {
-      return elastic.energy(elastic_strain, history);
+      return elastic.energy(elastic_strain, of_elasticity(history));
     }
 
     /** Part of the strain increment in direction i that is plastic [-]. */
@@ -117,8 +135,8 @@ namespace kedge
       return r.plastic_volume / 3. + r.plastic_shear * r.flow[i];
     }
 
-    MaterialHistory
-    updated(const Response &r, const MaterialHistory &history) const
+    History<double>
+    updated(const Response &r, const History<double> &history) const
     {
       return {history.equivalent_plastic_strain + std::sqrt(2. / 3.) * r.plastic_shear,
               history.plastic_volume_strain + r.plastic_volume,
@@ -127,7 +145,7 @@ namespace kedge
 
     /** Frozen energy Psi_2 = -a_0 eps_v^p or 0 [J/m^3]. */
     double
-    hardening_energy(const MaterialHistory &history) const
+    hardening_energy(const History<double> &history) const
     {
       return -shift * history.plastic_volume_strain;
     }
@@ -168,6 +186,16 @@ namespace kedge
 
   private:
     struct Return;
+
+    /** What the elastic law answers by. */
+    static HistoryOf<Elasticity>
+    of_elasticity(const History<double> &history)
+    {
+      if constexpr (has_columns<Elasticity>)
+        return {history.volume_strain};
+      else
+        return {};
+    }
 
     double
     porosity_at(const double volume_strain) const;

@@ -17,12 +17,17 @@ namespace kedge
   class Hencky
   {
   public:
-    static constexpr bool has_history          = false; ///< answers by its MaterialHistory
     static constexpr bool yields               = false; ///< has plastic strains
     static constexpr bool can_fail             = false; ///< its Response has a flag, valid
     static constexpr bool decoupled_volume     = true; ///< mean stress K tr eps, whatever the shape
     static constexpr bool stress_is_work_slope = true; ///< d(dPsi + dD)/d eps^tr = tau
     static constexpr bool takes_packs          = true; ///< answers several points at once
+
+    /** What it answers by beside the elastic strain: nothing. */
+    static constexpr std::array<Column, 0> columns{};
+    template <typename Number>
+    struct History
+    {};
 
     /** What the law answers to a principal trial strain. */
     template <typename Number>
@@ -47,7 +52,7 @@ namespace kedge
     Response<Number>
     respond(const Number (&strain_n)[3],
             const Number (&increment)[3],
-            const MaterialHistoryOf<Number> & = {}) const
+            const History<Number> & = {}) const
     {
       const Number trace_n = strain_n[0] + strain_n[1] + strain_n[2];
       const Number trace_d = increment[0] + increment[1] + increment[2];
@@ -69,7 +74,7 @@ namespace kedge
     /** Free energy per reference volume [J/m^3]. */
     template <typename Number>
     Number
-    energy(const Number (&strain)[3], const MaterialHistoryOf<Number> & = {}) const
+    energy(const Number (&strain)[3], const History<Number> & = {}) const
     {
       const Number trace = strain[0] + strain[1] + strain[2];
       Number       sum   = 0.;
@@ -86,12 +91,19 @@ namespace kedge
       return lame_modulus + (i == j ? 2. * shear_modulus : 0.);
     }
 
-    /** (tau_i - tau_j) / (eps_i - eps_j) of any two principal directions [Pa]. */
+    /** (tau_i - tau_j) / (eps_i - eps_j) of two principal directions [Pa]. */
     template <typename Number>
     Number
-    secant_shear(const Response<Number> &) const
+    secant_shear(const Response<Number> &, const int, const int) const
     {
       return 2. * shear_modulus;
+    }
+
+    /** Where the numbers of the columns come from: a constant of place, or 0. */
+    static std::array<const SpatialConstant *, 0>
+    constants(const MaterialParameters &)
+    {
+      return {};
     }
 
     /** P-wave modulus K + 4/3 G [Pa]. */

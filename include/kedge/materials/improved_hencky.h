@@ -36,12 +36,26 @@ namespace kedge
   class ImprovedHencky
   {
   public:
-    static constexpr bool has_history          = true;
     static constexpr bool yields               = false;
     static constexpr bool can_fail             = true;
     static constexpr bool decoupled_volume     = false;
     static constexpr bool takes_packs          = false;
     static constexpr bool stress_is_work_slope = true;
+
+    static constexpr std::array<Column, 1> columns{
+      {{"volume_strain", "-", "ln det F", ColumnKind::volume_strain}}};
+
+    template <typename Number>
+    struct History
+    {
+      Number volume_strain = 0.; ///< ln det F [-]
+    };
+
+    static std::array<const SpatialConstant *, 1>
+    constants(const MaterialParameters &)
+    {
+      return {};
+    }
 
     /** What the law answers to a principal strain. */
     struct Response
@@ -84,7 +98,7 @@ namespace kedge
     Response
     respond(const double (&strain_n)[3],
             const double (&increment)[3],
-            const MaterialHistory &history) const
+            const History<double> &history) const
     {
       const double trace_n = strain_n[0] + strain_n[1] + strain_n[2];
       const double trace_d = increment[0] + increment[1] + increment[2];
@@ -117,7 +131,7 @@ namespace kedge
 
     /** Free energy per reference volume [J/m^3]; the history gives ln J of the same state. */
     double
-    energy(const double (&strain)[3], const MaterialHistory &history) const
+    energy(const double (&strain)[3], const History<double> &history) const
     {
       const double trace = strain[0] + strain[1] + strain[2];
       double       sum   = 0.;
@@ -134,18 +148,18 @@ namespace kedge
       return response.bulk_modulus - 2. / 3. * shear_modulus + (i == j ? 2. * shear_modulus : 0.);
     }
 
-    /** (tau_i - tau_j) / (eps_i - eps_j) of any two principal directions [Pa]. */
+    /** (tau_i - tau_j) / (eps_i - eps_j) of two principal directions [Pa]. */
     double
-    secant_shear(const Response &) const
+    secant_shear(const Response &, const int, const int) const
     {
       return 2. * shear_modulus;
     }
 
     /** The volume strain at the end of the step. */
-    MaterialHistory
-    updated(const Response &response, const MaterialHistory &history) const
+    History<double>
+    updated(const Response &response, const History<double> &history) const
     {
-      MaterialHistory end = history;
+      History<double> end = history;
       end.volume_strain   = response.volume_strain;
       return end;
     }

@@ -10,8 +10,13 @@ namespace kedge
     hencky,
     von_mises,
     improved_hencky,
-    critical_state,         ///< on hencky
-    critical_state_improved ///< on improved_hencky
+    critical_state,          ///< on hencky
+    critical_state_improved, ///< on improved_hencky
+    tresca,
+    undrained_von_mises,
+    drucker_prager,
+    mohr_coulomb,
+    modified_cam_clay
   };
 
   /** What the critical-state model stores in plastic changes of volume. */
@@ -19,6 +24,14 @@ namespace kedge
   {
     centred, ///< -a_0 eps_v^p, which puts the surface where critical states are compressed
     none     ///< as the thesis prints it
+  };
+
+  /** Where Drucker and Prager's cone bears what Mohr and Coulomb's law does. */
+  enum class ConeMatch
+  {
+    plane_strain,
+    compression, ///< triaxial
+    extension    ///< triaxial
   };
 
   /**
@@ -29,6 +42,24 @@ namespace kedge
   {
     pointwise,
     cell_mean
+  };
+
+  /**
+   * A constant of a law that may differ from place to place: factor times an
+   * expression of the reference place X = (x, y, z).
+   */
+  struct SpatialConstant
+  {
+    double      value       = 0.;    ///< the same everywhere, or that at X = 0
+    std::string expression  = "";    ///< of x, y, z; empty if it is the same everywhere
+    double      factor      = 1.;    ///< by which the expression is multiplied
+    std::string entry       = "";    ///< its name in the scene
+    bool        may_be_zero = false; ///< else it must be positive
+
+    SpatialConstant() = default;
+    SpatialConstant(const double value)
+      : value(value)
+    {}
   };
 
   /** A material as the scene names it; density in the reference configuration. */
@@ -45,8 +76,30 @@ namespace kedge
     double initial_porosity = 0;
 
     // von_mises
-    double yield_stress      = 0; ///< uniaxial, sigma_y = sqrt(3/2) rho_y [Pa]
-    double hardening_modulus = 0; ///< H [Pa]
+    SpatialConstant yield_stress;          ///< uniaxial, sigma_y = sqrt(3/2) rho_y [Pa]
+    double          hardening_modulus = 0; ///< H [Pa]
+
+    // tresca, undrained_von_mises
+    SpatialConstant undrained_strength;        ///< s_u0 [Pa]
+    double          remoulded_strength  = 1.;  ///< d, over the intact one [-]
+    double          softening_strain    = 10.; ///< xi_95 [-]
+    double          softening_cell_size = 0.;  ///< for which it holds [m]; 0: on every grid
+
+    // drucker_prager, mohr_coulomb
+    SpatialConstant cohesion;             ///< c [Pa]
+    double          friction_angle  = 0.; ///< phi [deg]
+    double          dilation_angle  = 0.; ///< psi [deg]
+    ConeMatch       cone_match      = ConeMatch::plane_strain;
+    double          apex_rounding   = 0.; ///< e/k of drucker_prager [-]
+    double          tension_cut_off = 1.; ///< of the apex [-]
+
+    // modified_cam_clay
+    double          swelling_slope       = 0.;       ///< kappa, by the void ratio [-]
+    double          compression_slope    = 0.;       ///< lambda, by the void ratio [-]
+    double          initial_void_ratio   = 0.;       ///< e_0 [-]
+    double          critical_state_ratio = 0.;       ///< M = q/p' at the critical state [-]
+    double          reference_pressure   = 0.;       ///< p_r [Pa]
+    SpatialConstant start_preconsolidation_pressure; ///< p_c at the start [Pa]
 
     // critical_state, critical_state_improved
     double       preconsolidation_pressure = 0; ///< p_c, of the Kirchhoff stress [Pa]

@@ -20,12 +20,28 @@ namespace kedge
   class VonMises
   {
   public:
-    static constexpr bool has_history          = true;
     static constexpr bool yields               = true;
     static constexpr bool can_fail             = false;
     static constexpr bool decoupled_volume     = true;
     static constexpr bool stress_is_work_slope = true;
     static constexpr bool takes_packs          = true;
+
+    static constexpr std::array<Column, 2> columns{
+      {{"equivalent_plastic_strain", "-", "accumulated"},
+       {"yield_stress", "Pa", "sigma_y of the virgin material", ColumnKind::of_place}}};
+
+    template <typename Number>
+    struct History
+    {
+      Number equivalent_plastic_strain = 0.; ///< alpha [-]
+      Number yield_stress              = 0.; ///< sigma_y, uniaxial, of the virgin material [Pa]
+    };
+
+    static std::array<const SpatialConstant *, 2>
+    constants(const MaterialParameters &parameters)
+    {
+      return {{nullptr, &parameters.yield_stress}};
+    }
 
     /** What the law answers to a principal trial strain. */
     template <typename Number>
@@ -36,12 +52,12 @@ namespace kedge
       Number plastic_multiplier;  ///< d lambda = |d eps^p| [-]; 0 in an elastic step
       Number flow[3];             ///< n; of no use in an elastic step
       Number shear_factor;        ///< theta = 1 - 2 G d lambda / |s^tr|; 1 in an elastic step
+      Number yield_stress;        ///< sigma_y of the place [Pa]
     };
 
     explicit VonMises(const MaterialParameters &parameters)
       : elastic(parameters)
       , bulk_modulus(elastic.bulk_modulus)
-      , yield_stress(parameters.yield_stress)
       , hardening_modulus(parameters.hardening_modulus)
     {}
 
@@ -49,10 +65,10 @@ namespace kedge
     Response<Number>
     respond(const Number (&strain_n)[3],
             const Number (&increment)[3],
-            const MaterialHistoryOf<Number> &history) const
+            const History<Number> &history) const
     {
       using std::sqrt;
-      const Hencky::Response<Number> trial = elastic.respond(strain_n, increment, history);
+      const Hencky::Response<Number> trial = elastic.respond(strain_n, increment);
 
       Response<Number> response;
       const Number     pressure =
@@ -67,9 +83,10 @@ namespace kedge
       response.work_increment     = trial.work_increment;
       response.plastic_multiplier = 0.;
       response.shear_factor       = 1.;
+      response.yield_stress       = history.yield_stress;
 
       const Number norm   = sqrt(square);
-      const Number excess = norm - radius(history.equivalent_plastic_strain);
+      const Number excess = norm - radius(history);
       const auto   yields = excess > 0.;
       if (!any(yields))
         return response;
@@ -108,10 +125,10 @@ namespace kedge
       return value;
     }
 
-    /** (tau_i - tau_j) / (eps^tr_i - eps^tr_j) of any two principal directions [Pa]. */
+    /** (tau_i - tau_j) / (eps^tr_i - eps^tr_j) of two principal directions [Pa]. */
     template <typename Number>
     Number
-    secant_shear(const Response<Number> &response) const
+    secant_shear(const Response<Number> &response, const int, const int) const
     {
       return 2. * elastic.shear_modulus * response.shear_factor;
     }
@@ -119,7 +136,7 @@ namespace kedge
     /** Elastic free energy Psi_1 of the elastic strain [J/m^3]. */
     template <typename Number>
     Number
-    energy(const Number (&elastic_strain)[3], const MaterialHistoryOf<Number> & = {}) const
+    energy(const Number (&elastic_strain)[3], const History<Number> &) const
     {
       return elastic.energy(elastic_strain);
     }
@@ -136,16 +153,19 @@ namespace kedge
 
     /** alpha at the end of the step. */
     template <typename Number>
-    MaterialHistoryOf<Number>
-    updated(const Response<Number> &response, const MaterialHistoryOf<Number> &history) const
+    History<Number>
+    updated(const Response<Number> &response, const History<Number> &history) const
     {
-      return {history.equivalent_plastic_strain + std::sqrt(2. / 3.) * response.plastic_multiplier};
+      History<Number> end = history;
+      end.equivalent_plastic_strain =
+        history.equivalent_plastic_strain + std::sqrt(2. / 3.) * response.plastic_multiplier;
+      return end;
     }
 
     /** Psi_2 = H alpha^2 / 2, energy stored in hardening [J/m^3]. */
     template <typename Number>
     Number
-    hardening_energy(const MaterialHistoryOf<Number> &history) const
+    hardening_energy(const History<Number> &history) const
     {
       return 0.5 * hardening_modulus * history.equivalent_plastic_strain *
              history.equivalent_plastic_strain;
@@ -156,7 +176,7 @@ namespace kedge
     Number
     dissipation(const Response<Number> &response) const
     {
-      return std::sqrt(2. / 3.) * yield_stress * response.plastic_multiplier;
+      return std::sqrt(2. / 3.) * response.yield_stress * response.plastic_multiplier;
     }
 
     double
@@ -168,14 +188,14 @@ namespace kedge
     /** Radius of the yield surface, largest |s| [Pa]. */
     template <typename Number>
     Number
-    radius(const Number &equivalent_plastic_strain) const
+    radius(const History<Number> &history) const
     {
-      return std::sqrt(2. / 3.) * (yield_stress + hardening_modulus * equivalent_plastic_strain);
+      return std::sqrt(2. / 3.) *
+             (history.yield_stress + hardening_modulus * history.equivalent_plastic_strain);
     }
 
     const Hencky elastic;
     const double bulk_modulus;      ///< K [Pa]
-    const double yield_stress;      ///< sigma_y, uniaxial, of the virgin material [Pa]
     const double hardening_modulus; ///< H = d sigma_y / d alpha [Pa]
   };
 } // namespace kedge

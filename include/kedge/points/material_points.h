@@ -2,7 +2,7 @@
 #define kedge_points_material_points_h
 
 #include <kedge/grid/background_grid.h>
-#include <kedge/points/point_state.h>
+#include <kedge/points/point_layout.h>
 
 #include <deal.II/particles/particle_handler.h>
 
@@ -18,6 +18,11 @@ namespace kedge
   class MaterialPoints
   {
   public:
+    /** @p layout says what of the points' states is stored: everything if nothing is said. */
+    explicit MaterialPoints(const PointLayout<dim> &layout = PointLayout<dim>())
+      : layout(layout)
+    {}
+
     /**
      * Starts an empty cloud on the grid and inserts @p records: each rank
      * passes any share of them, they go to the ranks that own their cells
@@ -71,7 +76,9 @@ namespace kedge
       for (auto &particle : *handler)
         {
           dealii::Point<dim> location = particle.get_location();
-          update(number++, location, mutable_state_of(particle));
+          PointState<dim>    state    = state_of(particle);
+          update(number++, location, state);
+          layout.store(state, particle.get_properties().data());
           particle.set_location(location);
         }
     }
@@ -87,17 +94,12 @@ namespace kedge
 
   private:
     template <typename Accessor>
-    static const PointState<dim> &
-    state_of(const Accessor &particle)
+    PointState<dim>
+    state_of(const Accessor &particle) const
     {
-      return *reinterpret_cast<const PointState<dim> *>(particle.get_properties().data());
-    }
-
-    template <typename Accessor>
-    static PointState<dim> &
-    mutable_state_of(Accessor &particle)
-    {
-      return *reinterpret_cast<PointState<dim> *>(particle.get_properties().data());
+      PointState<dim> state{};
+      layout.load(particle.get_properties().data(), state);
+      return state;
     }
 
     using ActiveCell = typename dealii::Triangulation<dim>::active_cell_iterator;
@@ -118,6 +120,7 @@ namespace kedge
     void
     insert(const BackgroundGrid<dim> &grid, const PointRecord<dim> &record);
 
+    PointLayout<dim>                                         layout;
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
     std::uint64_t                                            n_global_ = 0;
   };

@@ -11,11 +11,13 @@
 
 namespace kedge
 {
+  /** Columns of PointState::memory: of all laws there are, each name once. */
+  constexpr unsigned int most_memory_columns = 16;
+
   /**
    * The committed history of one material point: what it knows at the end of
-   * the last accepted step. It is stored as plain doubles in the particle
-   * handler's property pool, so it migrates between ranks and is written to
-   * checkpoints without further code.
+   * the last accepted step. It consists of plain doubles; the cloud stores those
+   * that its scene uses (PointLayout) in the particle handler's property pool.
    *
    * Tensors of a plane-strain run (dim = 2) hold the in-plane part; the
    * out-of-plane components that are not constant stand in fields of their
@@ -31,12 +33,9 @@ namespace kedge
     dealii::Tensor<1, dim> reference_position;     ///< X [m]
     dealii::Tensor<1, dim> displacement;           ///< x - X, accumulated [m]
     dealii::Tensor<1, dim> velocity;               ///< [m/s]
-    dealii::Tensor<1, dim> acceleration;           ///< [m/s^2], used by schemes that carry it
     dealii::Tensor<1, dim> reference_half_lengths; ///< GIMP domain at the start [m]
     dealii::Tensor<1, dim> half_lengths;           ///< GIMP domain now [m]
     dealii::Tensor<2, dim> deformation_gradient;   ///< F = dx/dX
-    /** eps_v^p, positive where the pores open [-] */
-    double plastic_volume_strain;
     /**
      * B with B B^T = b^e, the elastic left Cauchy-Green tensor: its columns
      * are the principal directions scaled by the principal elastic stretches.
@@ -45,11 +44,16 @@ namespace kedge
     double                          out_of_plane_elastic_stretch;  ///< plane strain; 1 in 3D
     dealii::SymmetricTensor<2, dim> kirchhoff_stress;              ///< tau [Pa]
     double                          out_of_plane_kirchhoff_stress; ///< plane strain; 0 in 3D [Pa]
-    double                          strain_energy;       ///< elastic free energy per V0 [J/m^3]
-    double                          hardening_energy;    ///< per V0 [J/m^3]
-    double                          plastic_dissipation; ///< accumulated, per V0 [J/m^3]
-    double                          equivalent_plastic_strain; ///< alpha [-]
-    // saturated soil; 0 in dry bodies
+    double                          strain_energy; ///< elastic free energy per V0 [J/m^3]
+
+    // from here on stored only where a scene uses it (PointLayout)
+    dealii::Tensor<1, dim> acceleration; ///< [m/s^2], if the scheme carries it
+    /** What its law remembers or takes from its place, in the columns that all laws share. */
+    double memory[most_memory_columns];
+    // of bodies that yield
+    double hardening_energy;    ///< per V0 [J/m^3]
+    double plastic_dissipation; ///< accumulated, per V0 [J/m^3]
+    // of saturated soil
     double                 pore_pressure;             ///< p, positive in compression [Pa]
     double                 pore_pressure_fluctuation; ///< (N - N^0) p of (4.179) [Pa]
     double                 porosity;                  ///< n, pores over volume now [-]

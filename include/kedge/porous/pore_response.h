@@ -136,11 +136,11 @@ namespace kedge
    */
   template <int dim, bool with_tangent, class Material>
   inline PoreResponse<dim>
-  evaluate_pore_response(const Material         &material,
-                         const StressState<dim> &state,
-                         const MaterialHistory  &history,
-                         const PoreStep<dim>    &step,
-                         const PoreTrial<dim>   &trial)
+  evaluate_pore_response(const Material            &material,
+                         const StressState<dim>    &state,
+                         const HistoryOf<Material> &history,
+                         const PoreStep<dim>       &step,
+                         const PoreTrial<dim>      &trial)
   {
     const PoreFluid  &fluid = step.soil.fluid;
     PoreResponse<dim> r;

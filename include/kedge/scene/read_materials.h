@@ -15,6 +15,13 @@ namespace kedge
    */
   std::vector<MaterialParameters>
   read_materials(const ParameterReader &reader);
+
+  /**
+   * Strains of softening that hold for one cell size, on a grid whose cells are
+   * @p cell_size [m] wide: a shear band is as wide as some cells.
+   */
+  void
+  scale_softening(const double cell_size, std::vector<MaterialParameters> &materials);
 } // namespace kedge
 
 #endif

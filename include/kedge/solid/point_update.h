@@ -22,18 +22,23 @@ namespace kedge
                          const std::vector<double>     &displacement,
                          std::vector<PointUpdate<dim>> &updates);
 
-  /** Writes an update into the history: F, elastic frame, stress, energies. */
-  template <int dim>
-  void
-  apply_point_update(const PointUpdate<dim> &update, PointState<dim> &state);
-
   /**
-   * Scales the points' GIMP domains by the diagonal of the right stretch
-   * U = (F^T F)^{1/2} (Coombs et al. 2020).
+   * Writes an update into the history: F, elastic frame, stress, energies, and the
+   * law's columns into the @p columns of PointState::memory where they stand.
    */
   template <int dim>
   void
-  update_domains(const std::vector<PointState<dim> *> &states);
+  apply_point_update(const PointUpdate<dim>          &update,
+                     const std::vector<unsigned int> &columns,
+                     PointState<dim>                 &state);
+
+  /**
+   * Diagonals of the right stretches U = (F^T F)^{1/2}, by which the points'
+   * GIMP domains are scaled (Coombs et al. 2020) [-].
+   */
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  stretches_along_axes(const std::vector<dealii::Tensor<2, dim>> &deformation_gradients);
 } // namespace kedge
 
 #endif

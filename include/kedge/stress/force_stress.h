@@ -200,8 +200,8 @@ namespace kedge
   evaluate_force_stress(const Material                 &material,
                         const StressState<dim, Number> &state,
                         const Number (&A)[dim][dim],
-                        const double                     alpha,
-                        const MaterialHistoryOf<Number> &history = {})
+                        const double                       alpha,
+                        const HistoryOf<Material, Number> &history = {})
   {
     ForceStress<dim, Number> result;
     Number                   H[n_symmetric<dim>][n_symmetric<dim>];

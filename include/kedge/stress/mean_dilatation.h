@@ -33,7 +33,7 @@ namespace kedge
     Response
     respond(const Number (&strain_n)[3],
             const Number (&increment)[3],
-            const MaterialHistoryOf<Number> &history = {}) const
+            const HistoryOf<Material, Number> &history = {}) const
     {
       const Number trace         = increment[0] + increment[1] + increment[2];
       const Number deviatoric[3] = {increment[0] - trace / 3.,
@@ -94,8 +94,8 @@ namespace kedge
                              const Number                   &pressure,
                              const StressState<dim, Number> &state,
                              const Number (&A)[dim][dim],
-                             const double                     alpha,
-                             const MaterialHistoryOf<Number> &history = {})
+                             const double                       alpha,
+                             const HistoryOf<Material, Number> &history = {})
   {
     StressState<dim, Number> shared = state;
     const Number             change =

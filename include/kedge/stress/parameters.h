@@ -28,6 +28,8 @@ namespace kedge
     std::array<std::string, 3> logarithmic_strain; ///< of the fixed directions x, y, z [-]
     std::array<AxisControl, 3> control;            ///< of x, y, z: an element test
 
+    double initial_pressure = 0; ///< effective, which the undeformed point bears [Pa]
+
     // of an element test
     double       consolidation_pressure = 0;     ///< effective, before the test begins [Pa]
     bool         undrained              = false; ///< else the pore pressure stays 0

@@ -18,11 +18,9 @@ namespace kedge
     Number out_of_plane_stress;                ///< [Pa]
     Number out_of_plane_stretch_factor;        ///< of the elastic stretch, plane strain
     Number strain_energy;                      ///< per V0 [J/m^3]
-    // of a material with a history
-    Number hardening_energy;          ///< per V0 [J/m^3]
-    Number dissipation;               ///< of this step, per V0 [J/m^3]
-    Number equivalent_plastic_strain; ///< at the end of the step
-    Number plastic_volume_strain;     ///< at the end of the step
+    Number hardening_energy;                   ///< per V0 [J/m^3]
+    Number dissipation;                        ///< of this step, per V0 [J/m^3]
+    Number history[most_law_columns];          ///< at the end of the step, in the law's columns
   };
 
   /**
@@ -73,7 +71,7 @@ namespace kedge
     inline void
     update_history(const Material                              &material,
                    const StressState<dim, Number>              &state,
-                   const MaterialHistoryOf<Number>             &history,
+                   const HistoryOf<Material, Number>           &history,
                    const RelativeStress<dim, Material, Number> &r,
                    const Number                                &volume_change,
                    Number (&plastic_stretch)[3],
@@ -95,14 +93,15 @@ namespace kedge
                 }
             }
         }
-      MaterialHistoryOf<Number> end;
-      if constexpr (Material::has_history)
+      HistoryOf<Material, Number> end{};
+      if constexpr (has_columns<Material>)
         end = material.updated(r.response, history);
-      update.strain_energy             = material.energy(strain, end);
-      update.hardening_energy          = 0.;
-      update.dissipation               = 0.;
-      update.equivalent_plastic_strain = end.equivalent_plastic_strain;
-      update.plastic_volume_strain     = end.plastic_volume_strain;
+      update.strain_energy    = material.energy(strain, end);
+      update.hardening_energy = 0.;
+      update.dissipation      = 0.;
+      for (Number &value : update.history)
+        value = 0.;
+      write_history<Material>(end, update.history);
       if constexpr (Material::yields)
         {
           update.hardening_energy = material.hardening_energy(end);
@@ -124,9 +123,9 @@ namespace kedge
    */
   template <int dim, class Material, typename Number>
   inline Condition<Number>
-  update_point(const Material                  &material,
-               const StressState<dim, Number>  &state,
-               const MaterialHistoryOf<Number> &history,
+  update_point(const Material                    &material,
+               const StressState<dim, Number>    &state,
+               const HistoryOf<Material, Number> &history,
                const Number (&A)[dim][dim],
                PointUpdate<dim, Number> &update,
                const Number             &volume_change = 0.)

@@ -28,7 +28,7 @@ namespace kedge
   using ResponseOf = decltype(std::declval<const Material &>().respond(
     std::declval<const Number (&)[3]>(),
     std::declval<const Number (&)[3]>(),
-    std::declval<const MaterialHistoryOf<Number> &>()));
+    std::declval<const HistoryOf<Material, Number> &>()));
 
   /**
    * The stress of a trial step, pulled back to the configuration n. With the
@@ -87,7 +87,7 @@ namespace kedge
   evaluate_relative_stress(const Material                 &material,
                            const StressState<dim, Number> &state,
                            const Number (&E)[n_symmetric<dim>],
-                           const MaterialHistoryOf<Number> &history = {})
+                           const HistoryOf<Material, Number> &history = {})
   {
     using std::log1p;
     RelativeStress<dim, Material, Number> result;
@@ -234,7 +234,7 @@ namespace kedge
       for (int j = i + 1; j < dim; ++j)
         {
           const Number li = r.lambda[i], lj = r.lambda[j];
-          const Number secant = 0.5 * material.secant_shear(r.response) *
+          const Number secant = 0.5 * material.secant_shear(r.response, i, j) *
                                 log_slope((li - lj) * inverse[j]) * inverse[j];
           const Number g =
             (0.5 * (li + lj) * secant - 0.5 * (tau[i] + tau[j])) * (inverse[i] * inverse[j]);

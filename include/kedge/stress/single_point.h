@@ -13,7 +13,7 @@ namespace kedge
    * deformation through the same update as the points of a run, so that a
    * material can be studied and tested alone. Use:
    * @code
-   *   SinglePoint point(make_material(parameters));
+   *   SinglePoint point(parameters);
    *   for (double t = dt; t < end; t += dt)
    *     if (point.deform_to(F(t)))
    *       std::cout << point.state().kirchhoff_stress << std::endl;
@@ -25,21 +25,30 @@ namespace kedge
     /** The history at the end of the last step; at the start undeformed and free of stress. */
     struct State
     {
-      dealii::Tensor<2, 3>          deformation_gradient;          ///< F
-      dealii::Tensor<2, 3>          elastic_frame;                 ///< B, B B^T = b^e
-      dealii::SymmetricTensor<2, 3> kirchhoff_stress;              ///< tau [Pa]
-      double                        strain_energy             = 0; ///< per V0 [J/m^3]
-      double                        hardening_energy          = 0; ///< per V0 [J/m^3]
-      double                        plastic_dissipation       = 0; ///< so far, per V0 [J/m^3]
-      double                        equivalent_plastic_strain = 0; ///< alpha [-]
-      double plastic_volume_strain = 0; ///< positive where the pores open [-]
+      dealii::Tensor<2, 3>          deformation_gradient;    ///< F
+      dealii::Tensor<2, 3>          elastic_frame;           ///< B, B B^T = b^e
+      dealii::SymmetricTensor<2, 3> kirchhoff_stress;        ///< tau [Pa]
+      double                        strain_energy       = 0; ///< per V0 [J/m^3]
+      double                        hardening_energy    = 0; ///< per V0 [J/m^3]
+      double                        plastic_dissipation = 0; ///< so far, per V0 [J/m^3]
+      std::vector<double>           history;                 ///< in the columns of the law
 
       /** tau / det F [Pa] */
       dealii::SymmetricTensor<2, 3>
       cauchy_stress() const;
     };
 
-    explicit SinglePoint(const Material &material);
+    /** @p history in the columns of the law at the start. */
+    SinglePoint(const Material &material, const std::vector<double> &history);
+
+    /**
+     * A point of a material of these parameters, with the constants of place X = 0,
+     * that bears an isotropic @p pressure [Pa] undeformed; 0 is none, or the reference
+     * pressure of modified_cam_clay.
+     *
+     * @throws UserError if it cannot
+     */
+    explicit SinglePoint(const MaterialParameters &parameters, const double pressure = 0.);
 
     /**
      * What a step from the present state to the deformation gradient @p F
@@ -65,6 +74,10 @@ namespace kedge
     {
       return present;
     }
+
+    /** A number of the history by the name of its column; 0 if the law has none of that name. */
+    double
+    column(const std::string &name) const;
 
   private:
     Material material;

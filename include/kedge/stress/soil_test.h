@@ -40,6 +40,12 @@ namespace kedge
       return point.state();
     }
 
+    const SinglePoint &
+    material_point() const
+    {
+      return point;
+    }
+
     /** p, positive in compression [Pa] */
     double
     pore_pressure() const

@@ -1,0 +1,102 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/solid/initial_history.h>
+
+#include <cmath>
+
+namespace kedge
+{
+  namespace
+  {
+    /** A constant of a body's law, ready to be evaluated. */
+    struct PlaceColumn
+    {
+      unsigned int           memory; ///< where it stands in PointState::memory
+      const SpatialConstant *constant;
+      Expression             expression;
+
+      PlaceColumn(const unsigned int                   memory,
+                  const SpatialConstant               *constant,
+                  const std::map<std::string, double> &constants)
+        : memory(memory)
+        , constant(constant)
+        , expression(constant->expression.empty()
+                       ? Expression(constant->value)
+                       : Expression(constant->expression, {"x", "y", "z"}, constants))
+      {}
+
+      double
+      value(const double (&x)[3]) const
+      {
+        return constant->expression.empty() ? constant->value : constant->factor * expression(x);
+      }
+    };
+
+    std::vector<PlaceColumn>
+    place_columns(const MaterialParameters            &parameters,
+                  const std::map<std::string, double> &constants)
+    {
+      const Material           material = make_material(parameters);
+      const auto               of_place = constants_of_place(material, parameters);
+      const auto               indices  = memory_indices(material);
+      std::vector<PlaceColumn> result;
+      for (unsigned int c = 0; c < indices.size(); ++c)
+        if (of_place[c] != nullptr)
+          result.emplace_back(indices[c], of_place[c], constants);
+      return result;
+    }
+
+    /** Throws UserError if a value is not what the constant may be. */
+    template <int dim>
+    void
+    check_value(const MaterialParameters &material,
+                const SpatialConstant    &constant,
+                const dealii::Point<dim> &place,
+                const double              value)
+    {
+      if (std::isfinite(value) && (value > 0. || (constant.may_be_zero && value == 0.)))
+        return;
+      std::ostringstream message;
+      message << "Materials/" << material.name << '/' << constant.entry << " is " << value
+              << " at the material point X = (" << place << "); it must be "
+              << (constant.may_be_zero ? ">= 0" : "> 0")
+              << " wherever there is material. Change the expression, for instance with max(..).";
+      throw UserError(message.str());
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  set_initial_history(const std::vector<MaterialParameters> &parameters,
+                      const std::map<std::string, double>   &constants,
+                      std::vector<GeneratedPoint<dim>>      &points)
+  {
+    std::vector<std::vector<PlaceColumn>> columns;
+    for (const MaterialParameters &material : parameters)
+      columns.push_back(place_columns(material, constants));
+    for (auto &point : points)
+      {
+        PointState<dim> &state = point.record.state;
+        const auto       body  = static_cast<unsigned int>(state.body);
+        double           x[3]  = {0, 0, 0};
+        for (int d = 0; d < dim; ++d)
+          x[d] = state.reference_position[d];
+        for (const PlaceColumn &column : columns[body])
+          {
+            const double value = column.value(x);
+            check_value(parameters[body], *column.constant, point.record.location, value);
+            state.memory[column.memory] = value;
+          }
+      }
+  }
+
+  template void
+  set_initial_history(const std::vector<MaterialParameters> &,
+                      const std::map<std::string, double> &,
+                      std::vector<GeneratedPoint<2>> &);
+  template void
+  set_initial_history(const std::vector<MaterialParameters> &,
+                      const std::map<std::string, double> &,
+                      std::vector<GeneratedPoint<3>> &);
+} // namespace kedge
