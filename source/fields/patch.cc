@@ -22,7 +22,7 @@ namespace kedge
     points.reinit(background,
                   cloud,
                   parameters.basis_of_body,
-                  parameters.with_history,
+                  parameters.columns_of_body,
                   parameters.shared_volume,
                   parameters.holds_body);
     auto reached = points.reached_nodes(background.window());

@@ -32,14 +32,19 @@ namespace kedge
           step{soil, pore_scheme, trial.dt, alpha, trial.inertia, 1. / trial.cell_size, {}};
         for (int d = 0; d < dim && soil.has_body_force; ++d)
           step.acceleration[d] = trial.body_force[d];
-        const bool goes_on = std::visit(
-          [&](const auto &material) {
-            using M = std::decay_t<decltype(material)>;
-            return run(
-              internal::PorousBatch<dim,
-                                    M>{points, pores, window, nodes, trial, batch, step, material});
-          },
-          material_of_body[batch.body]);
+        const Material &material = material_of_body[batch.body];
+        const auto      law      = [&](const bool with_tangent) {
+          return internal::law_function<dim>(material,
+                                             {StressRule::at_configuration, false, with_tangent});
+        };
+        const bool goes_on = run(
+          internal::PorousBatch<dim>{{points, window, nodes, trial.unknowns, batch, alpha, nullptr},
+                                     pores,
+                                     trial,
+                                     step,
+                                     material,
+                                     law(false),
+                                     law(true)});
         if (!goes_on)
           return;
       }
@@ -60,15 +65,14 @@ namespace kedge
   {
     PointStatus status;
     for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
-      using M = std::decay_t<decltype(batch.material)>;
-      dispatch_pattern<dim>(batch.batch.pattern,
-                            internal::PorousResidualKernel<dim, M>{batch, residual, size, status});
+      dispatch_pattern<dim>(batch.context.batch.pattern,
+                            internal::PorousResidualKernel<dim>{batch, residual, size, status});
       if (status.ok())
         internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
-          dispatch_pattern<dim>(batch.batch.pattern,
-                                internal::SurfaceResidualKernel<dim, M>{{batch, face},
-                                                                        residual,
-                                                                        outflow});
+          dispatch_pattern<dim>(batch.context.batch.pattern,
+                                internal::SurfaceResidualKernel<dim>{{batch, face},
+                                                                     residual,
+                                                                     outflow});
         });
       return status.ok();
     });
@@ -87,12 +91,11 @@ namespace kedge
                                 NodeMatrix<dim>          &tangent) const
   {
     for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
-      using M = std::decay_t<decltype(batch.material)>;
-      dispatch_pattern<dim>(batch.batch.pattern,
-                            internal::PorousTangentKernel<dim, M>{batch, tangent});
+      dispatch_pattern<dim>(batch.context.batch.pattern,
+                            internal::PorousTangentKernel<dim>{batch, tangent});
       internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
-        dispatch_pattern<dim>(batch.batch.pattern,
-                              internal::SurfaceTangentKernel<dim, M>{{batch, face}, tangent});
+        dispatch_pattern<dim>(batch.context.batch.pattern,
+                              internal::SurfaceTangentKernel<dim>{{batch, face}, tangent});
       });
       return true;
     });
@@ -111,9 +114,8 @@ namespace kedge
   {
     updates.resize(points.size());
     for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
-      using M = std::decay_t<decltype(batch.material)>;
-      dispatch_pattern<dim>(batch.batch.pattern,
-                            internal::PoreUpdateKernel<dim, M>{batch, updates});
+      dispatch_pattern<dim>(batch.context.batch.pattern,
+                            internal::PoreUpdateKernel<dim>{batch, updates});
       return true;
     });
   }

@@ -3,23 +3,23 @@
 
 #include <kedge/porous/pore_response.h>
 #include <kedge/porous/porous_force.h>
+#include <kedge/solid/block_sum.h>
+#include <kedge/solid/points_in_lanes.h>
 
 namespace kedge
 {
   namespace internal
   {
     /** What the kernels of one batch share. */
-    template <int dim, class Material>
+    template <int dim>
     struct PorousBatch
     {
-      const StepPoints<dim>                 &points;
-      const PorePoints<dim>                 &pores;
-      const LatticeWindow<dim>              &window;
-      const ActiveNodes<dim>                &nodes;
-      const PorousTrial<dim>                &trial;
-      const typename StepPoints<dim>::Batch &batch;
-      const PoreStep<dim>                   &step;
-      const Material                        &material;
+      const BatchContext<dim> context; ///< with the trial's unknowns as nodal values
+      const PorePoints<dim>  &pores;
+      const PorousTrial<dim> &trial;
+      const PoreStep<dim>    &step;
+      const Material         &material;
+      const LawFunction<dim>  stress, stress_and_tangent; ///< effective
     };
 
     /** N^0_A of (4.138), (4.140): the share of a point in the cells around A, over 2^dim. */
@@ -46,330 +46,324 @@ namespace kedge
             constant[A++] = factor[0][i] * factor[1][j] * factor[2][k];
     }
 
-    /** Local node numbers and nodal values, component-major, of a stencil. */
-    template <int dim, int n>
-    struct StencilTrial
-    {
-      std::array<int, n> local;
-      double             unknown[dim + 1][n];
-      double             acceleration[dim][n] = {};
-
-      void
-      read(const ActiveNodes<dim>            &nodes,
-           const PorousTrial<dim>            &trial,
-           const std::array<unsigned int, n> &offsets,
-           const unsigned int                 first_node)
-      {
-        for (int A = 0; A < n; ++A)
-          {
-            local[A]        = nodes.local(first_node + offsets[A]);
-            const double *x = &trial.unknowns[std::size_t(local[A]) * (dim + 1)];
-            for (int c = 0; c <= dim; ++c)
-              unknown[c][A] = x[c];
-            for (int d = 0; d < dim && !trial.acceleration.empty(); ++d)
-              acceleration[d][A] = trial.acceleration[std::size_t(local[A]) * dim + d];
-          }
-      }
-    };
-
-    /** Basis of a point with the functions (N - N^0) of the stabilisation. */
+    /** The functions (N - N^0) of the stabilisation. */
     template <int dim, unsigned int pattern>
-    struct PorousBasis
+    inline void
+    expand_fluctuations(const Stencil<dim> &stencil,
+                        const double (&value)[stencil_size<dim>(pattern)],
+                        double (&fluctuation)[stencil_size<dim>(pattern)])
     {
+      expand_constants<dim, pattern>(stencil, fluctuation);
+      for (int A = 0; A < stencil_size<dim>(pattern); ++A)
+        fluctuation[A] = value[A] - fluctuation[A];
+    }
+
+    /** Points in the lanes with their trial states. */
+    template <int dim, unsigned int pattern>
+    class PorousLanes
+    {
+    public:
       static constexpr int n = stencil_size<dim>(pattern);
 
-      explicit PorousBasis(const Stencil<dim> &stencil)
-        : linear(expand<dim, pattern>(stencil))
+      explicit PorousLanes(const PorousBatch<dim> &b)
+        : of_points(b.context)
+        , b(b)
+      {}
+
+      void
+      read(const PackOfSlots &slots)
       {
-        expand_constants<dim, pattern>(stencil, fluctuation);
-        for (int A = 0; A < n; ++A)
-          fluctuation[A] = linear.value[A] - fluctuation[A];
+        of_points.read(slots, [&](const unsigned int lane, const bool new_nodes) {
+          if (new_nodes)
+            read_acceleration(of_points.local[lane]);
+          const auto &N = of_points.basis[lane].value;
+          expand_fluctuations<dim, pattern>(b.context.points.stencil[slots.slot(lane)],
+                                            N,
+                                            fluctuation[lane]);
+          const double(&pressure)[n] = of_points.nodal[dim];
+          trial.pressure.set(lane, of_points.sum(pressure, N));
+          trial.fluctuation.set(lane, of_points.sum(pressure, fluctuation[lane]));
+          for (int d = 0; d < dim; ++d)
+            trial.acceleration[d].set(lane, of_points.sum(acceleration[d], N));
+          read_point(lane, slots.slot(lane));
+        });
+        for (unsigned int lane = slots.count; lane < pack_width; ++lane)
+          repeat_last(lane, slots.count - 1);
+        for (int j = 0; j < dim; ++j)
+          {
+            for (int i = 0; i < dim; ++i)
+              trial.displacement[i][j] = of_points.gradient[i][j];
+            trial.pressure_gradient[j] = of_points.gradient[dim][j];
+          }
       }
 
-      BasisValues<dim, n> linear;
-      double              fluctuation[n];
+      LanesOfPoints<dim, pattern, dim + 1> of_points;
+      double                               fluctuation[pack_width][n];
+      PoreTrial<dim>                       trial;
+
+    private:
+      void
+      read_acceleration(const std::array<int, n> &local)
+      {
+        for (int A = 0; A < n; ++A)
+          for (int d = 0; d < dim && !b.trial.acceleration.empty(); ++d)
+            acceleration[d][A] = b.trial.acceleration[std::size_t(local[A]) * dim + d];
+      }
+
+      void
+      read_point(const unsigned int lane, const unsigned int slot)
+      {
+        const double rate =
+          b.pores.rate.empty()
+            ? 0.
+            : b.step.scheme.known_rate(b.pores.rate[slot], b.pores.rate_change[slot], b.step.dt);
+        trial.volume.set(lane, b.context.points.volume[slot]);
+        trial.determinant.set(lane, b.context.points.determinant[slot]);
+        trial.pressure_n.set(lane, b.pores.pressure[slot]);
+        trial.fluctuation_n.set(lane, b.pores.fluctuation[slot]);
+        trial.known_rate.set(lane, rate);
+      }
+
+      void
+      repeat_last(const unsigned int lane, const unsigned int last)
+      {
+        static_assert(sizeof(trial) % sizeof(Pack) == 0, "nothing but packs");
+        auto *values = reinterpret_cast<Pack *>(&trial);
+        for (std::size_t i = 0; i < sizeof(trial) / sizeof(Pack); ++i)
+          values[i].set(lane, values[i][last]);
+      }
+
+      const PorousBatch<dim> &b;
+      double                  acceleration[dim][n] = {};
     };
 
-    template <int dim, unsigned int pattern, class Material>
-    inline PoreTrial<dim>
-    trial_at_point(const PorousBatch<dim, Material>                    &b,
-                   const unsigned int                                   slot,
-                   const StencilTrial<dim, stencil_size<dim>(pattern)> &x,
-                   const PorousBasis<dim, pattern>                     &basis)
-    {
-      constexpr int  n = stencil_size<dim>(pattern);
-      PoreTrial<dim> t;
-      const auto     sum = [](const double(&values)[n], const double(&weights)[n]) {
-        double result = 0.;
-        for (int A = 0; A < n; ++A)
-          result += values[A] * weights[A];
-        return result;
-      };
-      t.volume        = b.points.volume[slot];
-      t.determinant   = b.points.determinant[slot];
-      t.pressure_n    = b.pores.pressure[slot];
-      t.fluctuation_n = b.pores.fluctuation[slot];
-      t.known_rate =
-        b.pores.rate.empty()
-          ? 0.
-          : b.step.scheme.known_rate(b.pores.rate[slot], b.pores.rate_change[slot], b.step.dt);
-      for (int j = 0; j < dim; ++j)
-        {
-          for (int i = 0; i < dim; ++i)
-            t.displacement[i][j] = sum(x.unknown[i], basis.linear.gradient[j]);
-          t.pressure_gradient[j] = sum(x.unknown[dim], basis.linear.gradient[j]);
-          t.acceleration[j]      = sum(x.acceleration[j], basis.linear.value);
-        }
-      t.pressure    = sum(x.unknown[dim], basis.linear.value);
-      t.fluctuation = sum(x.unknown[dim], basis.fluctuation);
-      return t;
-    }
-
-    /** Calls visit(slot, trial, basis) for the points of a batch until it is false, begin() and
-     * end(local nodes) around those with the same nodes. */
-    template <int dim, unsigned int pattern, class Material, class Begin, class Visit, class End>
+    /** The law of the skeleton, then the pores. */
+    template <bool with_tangent, int dim>
     inline void
-    for_points_of_batch(const PorousBatch<dim, Material> &b,
-                        const Begin                      &begin,
-                        const Visit                      &visit,
-                        const End                        &end)
+    respond(const PorousBatch<dim> &b,
+            const PackOfSlots      &slots,
+            const PoreTrial<dim>   &trial,
+            PoreResponse<dim>      &response)
     {
-      constexpr int        n       = stencil_size<dim>(pattern);
-      const auto           offsets = node_offsets<dim, pattern>(b.window.node_strides());
-      StencilTrial<dim, n> x;
-      for (unsigned int slot = b.batch.begin; slot < b.batch.end;)
-        {
-          const unsigned int first = b.points.stencil[slot].first_node;
-          x.read(b.nodes, b.trial, offsets, first);
-          begin();
-          for (; slot < b.batch.end && b.points.stencil[slot].first_node == first; ++slot)
-            {
-              const PorousBasis<dim, pattern> basis(b.points.stencil[slot]);
-              if (!visit(slot, trial_at_point<dim, pattern>(b, slot, x, basis), basis))
-                return;
-            }
-          end(x.local);
-        }
-    }
-
-    template <bool with_tangent, int dim, class Material>
-    inline PoreResponse<dim>
-    respond(const PorousBatch<dim, Material> &b,
-            const unsigned int                slot,
-            const PoreTrial<dim>             &trial)
-    {
-      return evaluate_pore_response<dim, with_tangent>(b.material,
-                                                       b.points.stress_state[slot],
-                                                       b.points.template history_of<Material>(slot),
-                                                       b.step,
-                                                       trial);
+      ForceStress<dim, Pack> stress;
+      const auto             law = with_tangent ? b.stress_and_tangent : b.stress;
+      law(b.context, b.material, slots, trial.displacement, stress);
+      evaluate_pore_response<dim, with_tangent>(stress, b.step, trial, response);
     }
 
     /** The residuals of a batch. */
-    template <int dim, class Material>
+    template <int dim>
     struct PorousResidualKernel
     {
-      const PorousBatch<dim, Material> &b;
-      std::vector<double>              &residual;
-      PorousSize                       &size;
-      PointStatus                      &status;
+      const PorousBatch<dim> &b;
+      std::vector<double>    &residual;
+      PorousSize             &size;
+      PointStatus            &status;
 
-      /** Adds the terms of a point as they would cancel among cells, gradients being 2/h. */
+      /** The terms of the points as they would cancel among cells, gradients being 2/h. */
       void
-      add_size(const PoreTrial<dim> &trial, const PoreResponse<dim> &r, double (&terms)[2]) const
+      evaluate_size(const PoreTrial<dim> &trial, const PoreResponse<dim> &r, Pack (&terms)[2]) const
       {
-        double stress = 0., force = 0., strain = 0., flow = 0.;
+        Pack stress = 0., force = 0., strain = 0., flow = 0.;
         for (int i = 0; i < dim; ++i)
           {
-            force += std::abs(trial.acceleration[i]) + std::abs(b.step.acceleration[i]);
-            flow += std::abs(r.fluid_gradient[i]);
+            force += abs(trial.acceleration[i]) + std::abs(b.step.acceleration[i]);
+            flow += abs(r.fluid_gradient[i]);
             for (int R = 0; R < dim; ++R)
               {
-                stress += std::abs(r.momentum_gradient[i][R]);
-                strain += std::abs(trial.displacement[i][R]);
+                stress += abs(r.momentum_gradient[i][R]);
+                strain += abs(trial.displacement[i][R]);
               }
           }
-        terms[0] += 2. * b.step.inverse_length * stress + r.mass * force;
-        terms[1] +=
-          2. * b.step.inverse_length * flow + trial.volume * strain + std::abs(r.fluid_value) +
-          r.pp_fluctuation * (std::abs(trial.fluctuation) + std::abs(trial.fluctuation_n));
+        terms[0] = 2. * b.step.inverse_length * stress + r.mass * force;
+        terms[1] = 2. * b.step.inverse_length * flow + trial.volume * strain + abs(r.fluid_value) +
+                   r.pp_fluctuation * (abs(trial.fluctuation) + abs(trial.fluctuation_n));
+      }
+
+      template <int n>
+      static void
+      add_point(const unsigned int         lane,
+                const PoreResponse<dim>   &r,
+                const BasisValues<dim, n> &basis,
+                const double (&fluctuation)[n],
+                double (&sum)[dim + 1][n])
+      {
+        for (int i = 0; i <= dim; ++i)
+          {
+            const double value = (i < dim ? r.momentum_value[i % dim] : r.fluid_value)[lane];
+            double       gradient[dim];
+            for (int R = 0; R < dim; ++R)
+              gradient[R] = (i < dim ? r.momentum_gradient[i % dim][R] : r.fluid_gradient[R])[lane];
+            for (int A = 0; A < n; ++A)
+              {
+                double add = value * basis.value[A];
+                for (int R = 0; R < dim; ++R)
+                  add += gradient[R] * basis.gradient[R][A];
+                sum[i][A] += add;
+              }
+          }
+        const double stabilisation = r.fluid_fluctuation[lane];
+        for (int A = 0; A < n; ++A)
+          sum[dim][A] += stabilisation * fluctuation[A];
       }
 
       template <unsigned int pattern>
       void
       run() const
       {
-        constexpr int n = stencil_size<dim>(pattern);
-        double        sum[dim + 1][n], terms[2];
-        for_points_of_batch<dim, pattern>(
-          b,
-          [&]() {
-            std::fill_n(&sum[0][0], (dim + 1) * n, 0.);
-            terms[0] = terms[1] = 0.;
-          },
-          [&](const unsigned int slot, const PoreTrial<dim> &trial, const auto &basis) {
-            const PoreResponse<dim> r = respond<false>(b, slot, trial);
-            if (!r.valid)
+        constexpr int             n     = stencil_size<dim>(pattern);
+        const auto               &batch = b.context.batch;
+        PorousLanes<dim, pattern> lanes(b);
+        PoreResponse<dim>         r;
+        Pack                      pack_terms[2];
+        double                    sum[dim + 1][n] = {}, terms[2] = {};
+        for (unsigned int begin = batch.begin; begin < batch.end;)
+          {
+            const PackOfSlots slots(begin, batch.end);
+            lanes.read(slots);
+            respond<false>(b, slots, lanes.trial, r);
+            status.failed_slot = slots.first_failure(r.valid, PointStatus::none);
+            if (!status.ok())
+              return;
+            evaluate_size(lanes.trial, r, pack_terms);
+            begin += slots.count;
+            for (unsigned int lane = 0; lane < slots.count; ++lane)
               {
-                status.failed_slot = slot;
-                return false;
+                for (int t = 0; t < 2; ++t)
+                  terms[t] += pack_terms[t][lane];
+                add_point<n>(lane, r, lanes.of_points.basis[lane], lanes.fluctuation[lane], sum);
+                if (!lanes.of_points.is_last(slots.slot(lane)))
+                  continue;
+                size.momentum += terms[0] * terms[0];
+                size.fluid += terms[1] * terms[1];
+                terms[0] = terms[1] = 0.;
+                for (int A = 0; A < n; ++A)
+                  for (int c = 0; c <= dim; ++c)
+                    {
+                      residual[std::size_t(lanes.of_points.local[lane][A]) * (dim + 1) + c] +=
+                        sum[c][A];
+                      sum[c][A] = 0.;
+                    }
               }
-            add_size(trial, r, terms);
-            const auto &N = basis.linear.value;
-            for (int i = 0; i < dim; ++i)
-              for (int A = 0; A < n; ++A)
-                {
-                  double add = r.momentum_value[i] * N[A];
-                  for (int R = 0; R < dim; ++R)
-                    add += r.momentum_gradient[i][R] * basis.linear.gradient[R][A];
-                  sum[i][A] += add;
-                }
-            for (int A = 0; A < n; ++A)
-              {
-                double add = r.fluid_value * N[A] + r.fluid_fluctuation * basis.fluctuation[A];
-                for (int R = 0; R < dim; ++R)
-                  add += r.fluid_gradient[R] * basis.linear.gradient[R][A];
-                sum[dim][A] += add;
-              }
-            return true;
-          },
-          [&](const std::array<int, n> &local) {
-            size.momentum += terms[0] * terms[0];
-            size.fluid += terms[1] * terms[1];
-            for (int A = 0; A < n; ++A)
-              for (int c = 0; c <= dim; ++c)
-                residual[std::size_t(local[A]) * (dim + 1) + c] += sum[c][A];
-          });
+          }
+      }
+    };
+
+    /**
+     * The point in a lane for BlockSum, see PoreResponse. Test functions are the gradients and
+     * the values of the basis and, for the pressure, the fluctuations.
+     */
+    template <int dim, int n>
+    struct PorousTangentOfPoint
+    {
+      const unsigned int         lane;
+      const PoreResponse<dim>   &r;
+      const BasisValues<dim, n> &basis;
+      const double (&fluctuation)[n];
+
+      static constexpr int max_tests = dim + 2;
+
+      static constexpr int
+      n_tests(const int row)
+      {
+        return row < dim ? dim + 1 : dim + 2;
+      }
+
+      const double *
+      test(const int T) const
+      {
+        return T < dim ? basis.gradient[T % dim] : T == dim ? basis.value : fluctuation;
+      }
+
+      void
+      contract(const int row, const int T, double (&column)[dim + 1][n]) const
+      {
+        if (T == dim + 1)
+          {
+            for (int B = 0; B < n; ++B)
+              column[dim][B] = r.pp_fluctuation[lane] * fluctuation[B];
+            for (int m = 0; m < dim; ++m)
+              std::fill_n(column[m], n, 0.);
+            return;
+          }
+        double weight[dim + 1][dim + 1]; // [m][gradient S or value]
+        if (row < dim)
+          momentum_weights(row, T, weight);
+        else
+          fluid_weights(T, weight);
+        for (int m = 0; m <= dim; ++m)
+          for (int B = 0; B < n; ++B)
+            {
+              double add = weight[m][dim] * basis.value[B];
+              for (int S = 0; S < dim; ++S)
+                add += weight[m][S] * basis.gradient[S][B];
+              column[m][B] = add;
+            }
+      }
+
+    private:
+      void
+      momentum_weights(const int i, const int T, double (&weight)[dim + 1][dim + 1]) const
+      {
+        for (int m = 0; m < dim; ++m)
+          {
+            for (int S = 0; S < dim; ++S)
+              weight[m][S] = (T < dim ? r.uu[i][T % dim][m][S] : r.uu_value[i][m][S])[lane];
+            weight[m][dim] = T == dim && m == i ? r.mass_inertia[lane] : 0.;
+          }
+        for (int S = 0; S < dim; ++S)
+          weight[dim][S] = 0.;
+        weight[dim][dim] = (T < dim ? r.up[i][T % dim] : r.up_value[i])[lane];
+      }
+
+      void
+      fluid_weights(const int T, double (&weight)[dim + 1][dim + 1]) const
+      {
+        const int R = T % dim;
+        for (int m = 0; m < dim; ++m)
+          {
+            for (int S = 0; S < dim; ++S)
+              weight[m][S] = (T < dim ? r.pu[R][m][S] : r.pu_value[m][S])[lane];
+            weight[m][dim] = T < dim ? r.pu_inertia[R][m][lane] : 0.;
+          }
+        for (int S = 0; S < dim; ++S)
+          weight[dim][S] = T < dim ? r.pp[R][S][lane] : 0.;
+        weight[dim][dim] = (T < dim ? r.pp_weight[R] : r.pp_value)[lane];
       }
     };
 
     /** The Jacobian of a batch. */
-    template <int dim, class Material>
+    template <int dim>
     struct PorousTangentKernel
     {
-      const PorousBatch<dim, Material> &b;
-      NodeMatrix<dim>                  &tangent;
-
-      template <int n>
-      struct Sum
-      {
-        double value[n][dim + 1][dim + 1][n]; ///< [A][row][column][B]
-      };
-
-      /** entry_B += gradient_S dN_B/dx_S + value N_B. */
-      template <int n>
-      static void
-      add_row(const double (&gradient)[dim],
-              const double               value,
-              const BasisValues<dim, n> &basis,
-              double (&entry)[n])
-      {
-        for (int B = 0; B < n; ++B)
-          {
-            double add = value * basis.value[B];
-            for (int S = 0; S < dim; ++S)
-              add += gradient[S] * basis.gradient[S][B];
-            entry[B] += add;
-          }
-      }
-
-      template <int n>
-      static void
-      add_momentum(const PoreResponse<dim>   &r,
-                   const BasisValues<dim, n> &basis,
-                   const int                  A,
-                   Sum<n>                    &sum)
-      {
-        const double N = basis.value[A];
-        for (int i = 0; i < dim; ++i)
-          {
-            for (int m = 0; m < dim; ++m)
-              {
-                double factor[dim];
-                for (int S = 0; S < dim; ++S)
-                  {
-                    factor[S] = N * r.uu_value[i][m][S];
-                    for (int R = 0; R < dim; ++R)
-                      factor[S] += basis.gradient[R][A] * r.uu[i][R][m][S];
-                  }
-                add_row<n>(factor, i == m ? r.mass_inertia * N : 0., basis, sum.value[A][i][m]);
-              }
-            double value = N * r.up_value[i];
-            for (int R = 0; R < dim; ++R)
-              value += basis.gradient[R][A] * r.up[i][R];
-            for (int B = 0; B < n; ++B)
-              sum.value[A][i][dim][B] += value * basis.value[B];
-          }
-      }
-
-      template <int n>
-      static void
-      add_fluid(const PoreResponse<dim>   &r,
-                const BasisValues<dim, n> &basis,
-                const double (&fluctuation)[n],
-                const int A,
-                Sum<n>   &sum)
-      {
-        const double N = basis.value[A];
-        for (int m = 0; m < dim; ++m)
-          {
-            double factor[dim], value = 0.;
-            for (int R = 0; R < dim; ++R)
-              value += basis.gradient[R][A] * r.pu_inertia[R][m];
-            for (int S = 0; S < dim; ++S)
-              {
-                factor[S] = N * r.pu_value[m][S];
-                for (int R = 0; R < dim; ++R)
-                  factor[S] += basis.gradient[R][A] * r.pu[R][m][S];
-              }
-            add_row<n>(factor, value, basis, sum.value[A][dim][m]);
-          }
-        double factor[dim], value = N * r.pp_value;
-        for (int R = 0; R < dim; ++R)
-          value += basis.gradient[R][A] * r.pp_weight[R];
-        for (int S = 0; S < dim; ++S)
-          {
-            factor[S] = 0.;
-            for (int R = 0; R < dim; ++R)
-              factor[S] += basis.gradient[R][A] * r.pp[R][S];
-          }
-        add_row<n>(factor, value, basis, sum.value[A][dim][dim]);
-        const double stabilisation = r.pp_fluctuation * fluctuation[A];
-        for (int B = 0; B < n; ++B)
-          sum.value[A][dim][dim][B] += stabilisation * fluctuation[B];
-      }
+      const PorousBatch<dim> &b;
+      NodeMatrix<dim>        &tangent;
 
       template <unsigned int pattern>
       void
       run() const
       {
-        constexpr int n     = stencil_size<dim>(pattern);
-        const auto    slots = pair_slots<dim, pattern>(tangent);
-        Sum<n>        sum;
-        for_points_of_batch<dim, pattern>(
-          b,
-          [&]() {
-            std::fill_n(&sum.value[0][0][0][0], n * (dim + 1) * (dim + 1) * n, 0.);
-          },
-          [&](const unsigned int slot, const PoreTrial<dim> &trial, const auto &basis) {
-            const PoreResponse<dim> r = respond<true>(b, slot, trial);
-            for (int A = 0; A < n; ++A)
+        const auto                      rows  = row_slots<dim, pattern>(tangent);
+        const auto                     &batch = b.context.batch;
+        PorousLanes<dim, pattern>       lanes(b);
+        PoreResponse<dim>               r;
+        BlockSum<dim, pattern, dim + 1> sum;
+        for (unsigned int begin = batch.begin; begin < batch.end;)
+          {
+            const PackOfSlots slots(begin, batch.end);
+            lanes.read(slots);
+            respond<true>(b, slots, lanes.trial, r);
+            begin += slots.count;
+            for (unsigned int lane = 0; lane < slots.count; ++lane)
               {
-                add_momentum<n>(r, basis.linear, A, sum);
-                add_fluid<n>(r, basis.linear, basis.fluctuation, A, sum);
+                const PorousTangentOfPoint<dim, stencil_size<dim>(pattern)>
+                  point{lane, r, lanes.of_points.basis[lane], lanes.fluctuation[lane]};
+                if (lanes.of_points.is_last(slots.slot(lane)))
+                  sum.add_last_point(point, rows, lanes.of_points.local[lane], tangent);
+                else
+                  sum.add_point(point);
               }
-            return true;
-          },
-          [&](const std::array<int, n> &local) {
-            for (int A = 0; A < n; ++A)
-              for (int c = 0; c <= dim; ++c)
-                {
-                  double *row = tangent.row(local[A], c);
-                  for (int B = 0; B < n; ++B)
-                    for (int m = 0; m <= dim; ++m)
-                      row[slots[A][B] * (dim + 1) + m] += sum.value[A][c][m][B];
-                }
-          });
+          }
       }
     };
 
@@ -391,69 +385,82 @@ namespace kedge
         const auto offsets = node_offsets<dim, pattern>(window.node_strides());
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           {
-            const Stencil<dim>             &stencil = points.stencil[slot];
-            const PorousBasis<dim, pattern> basis(stencil);
+            constexpr int       n       = stencil_size<dim>(pattern);
+            const Stencil<dim> &stencil = points.stencil[slot];
+            double              fluctuation[n];
+            expand_fluctuations<dim, pattern>(stencil,
+                                              expand<dim, pattern>(stencil).value,
+                                              fluctuation);
             result[slot] = 0.;
-            for (int A = 0; A < basis.n; ++A)
+            for (int A = 0; A < n; ++A)
               result[slot] +=
-                basis.fluctuation[A] * nodal_pressure[nodes.local(stencil.first_node + offsets[A])];
+                fluctuation[A] * nodal_pressure[nodes.local(stencil.first_node + offsets[A])];
           }
       }
     };
 
     /** The pores at the end of a step. */
-    template <int dim, class Material>
+    template <int dim>
     struct PoreUpdateKernel
     {
-      const PorousBatch<dim, Material> &b;
-      std::vector<PoreUpdate<dim>>     &updates;
+      const PorousBatch<dim>       &b;
+      std::vector<PoreUpdate<dim>> &updates;
 
       void
-      set(const unsigned int slot, const PoreTrial<dim> &trial, const PoreResponse<dim> &r) const
+      set(const unsigned int       slot,
+          const unsigned int       lane,
+          const PoreTrial<dim>    &trial,
+          const PoreResponse<dim> &r) const
       {
-        const PoreStep<dim> &step   = b.step;
-        const PoreFluid     &fluid  = step.soil.fluid;
-        PoreUpdate<dim>     &update = updates[slot];
-        double               unused[dim][dim];
-        const double         J = trial.determinant * (1. + invert<dim>(trial.displacement, unused));
-        const double         grains = 1. - fluid.initial_porosity;
-        update.pressure             = r.end_pressure;
-        update.fluctuation =
-          trial.fluctuation_n + (trial.fluctuation - trial.fluctuation_n) / step.scheme.theta;
+        const PoreStep<dim> &step        = b.step;
+        const PoreFluid     &fluid       = step.soil.fluid;
+        PoreUpdate<dim>     &update      = updates[slot];
+        const double         J           = r.end_determinant[lane];
+        const double         grains      = 1. - fluid.initial_porosity;
+        const double         volume      = trial.volume[lane];
+        const double         fluctuation = trial.fluctuation[lane],
+                     fluctuation_n       = trial.fluctuation_n[lane];
+        update.pressure                  = r.end_pressure[lane];
+        update.fluctuation  = fluctuation_n + (fluctuation - fluctuation_n) / step.scheme.theta;
         update.porosity     = fluid.porosity(J);
-        update.mass         = trial.volume * (step.soil.grain_density * grains +
-                                      fluid.density(r.end_pressure) * (J - grains));
+        update.mass         = volume * (step.soil.grain_density * grains +
+                                fluid.density(update.pressure) * (J - grains));
         update.content_rate = update.content_rate_change = 0.;
         if (step.scheme.carries_rates)
           {
             const double rate = b.pores.rate[slot], change = b.pores.rate_change[slot];
-            update.content_rate = step.scheme.end_rate(r.content_increment, rate, change, step.dt);
+            const double increment = r.content_increment[lane];
+            update.content_rate    = step.scheme.end_rate(increment, rate, change, step.dt);
             update.content_rate_change =
-              step.scheme.end_rate_change(r.content_increment, rate, change, step.dt);
+              step.scheme.end_rate_change(increment, rate, change, step.dt);
           }
-        std::copy_n(r.darcy_velocity, dim, update.darcy_velocity);
-        update.darcy_dissipation = trial.volume * step.dt * r.darcy_power;
-        update.flow_work         = trial.volume * step.dt * r.flow_work_rate;
-        update.known_inflow      = trial.volume * step.dt * trial.known_rate;
+        for (int d = 0; d < dim; ++d)
+          update.darcy_velocity[d] = r.darcy_velocity[d][lane];
+        update.darcy_dissipation = volume * step.dt * r.darcy_power[lane];
+        update.flow_work         = volume * step.dt * r.flow_work_rate[lane];
+        update.known_inflow      = volume * step.dt * trial.known_rate[lane];
         // what flows at n + 1 alone, if rates are carried, flows on between the means of two steps
         update.stabilisation_work =
-          r.fluid_fluctuation * (step.scheme.carries_rates
-                                   ? 0.5 * (trial.fluctuation_n + trial.fluctuation)
-                                   : trial.fluctuation);
+          r.fluid_fluctuation[lane] *
+          (step.scheme.carries_rates ? 0.5 * (fluctuation_n + fluctuation) : fluctuation);
       }
 
       template <unsigned int pattern>
       void
       run() const
       {
-        for_points_of_batch<dim, pattern>(
-          b,
-          []() {},
-          [&](const unsigned int slot, const PoreTrial<dim> &trial, const auto &) {
-            set(slot, trial, respond<false>(b, slot, trial));
-            return true;
-          },
-          [](const auto &) {});
+        const auto               &batch = b.context.batch;
+        PorousLanes<dim, pattern> lanes(b);
+        PoreResponse<dim>         r;
+        for (unsigned int begin = batch.begin; begin < batch.end;)
+          {
+            const PackOfSlots slots(begin, batch.end);
+            lanes.read(slots);
+            respond<false>(b, slots, lanes.trial, r);
+            for (unsigned int lane = 0; lane < slots.count; ++lane)
+              set(slots.slot(lane), lane, lanes.trial, r);
+            begin += slots.count;
+          }
       }
     };
   } // namespace internal

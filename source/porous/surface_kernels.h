@@ -15,11 +15,11 @@ namespace kedge
      *   gamma = penalty kappa_0/(g h).
      * q is the flow at the point; N_A(face) = N_A + g_A.offset is linear too.
      */
-    template <int dim, class Material>
+    template <int dim>
     struct SurfaceKernel
     {
-      const PorousBatch<dim, Material> &b;
-      const SurfacePoint<dim>          &face;
+      const PorousBatch<dim>  &b;
+      const SurfacePoint<dim> &face;
 
       template <unsigned int pattern>
       struct Values
@@ -27,24 +27,34 @@ namespace kedge
         static constexpr int n = stencil_size<dim>(pattern);
 
         explicit Values(const SurfaceKernel &k)
-          : basis(k.b.points.stencil[k.face.slot])
+          : slots(k.face.slot, k.face.slot + 1)
+          , lanes(k.b)
         {
-          const auto offsets = node_offsets<dim, pattern>(k.b.window.node_strides());
-          x.read(k.b.nodes, k.b.trial, offsets, k.b.points.stencil[k.face.slot].first_node);
-          trial    = trial_at_point<dim, pattern>(k.b, k.face.slot, x, basis);
+          lanes.read(slots);
           pressure = 0.;
           for (int A = 0; A < n; ++A)
             {
-              at_face[A] = basis.linear.value[A];
+              at_face[A] = basis().value[A];
               for (int R = 0; R < dim; ++R)
-                at_face[A] += basis.linear.gradient[R][A] * k.face.offset[R];
-              pressure += at_face[A] * x.unknown[dim][A];
+                at_face[A] += basis().gradient[R][A] * k.face.offset[R];
+              pressure += at_face[A] * lanes.of_points.nodal[dim][A];
             }
         }
 
-        PorousBasis<dim, pattern> basis;
-        StencilTrial<dim, n>      x;
-        PoreTrial<dim>            trial;
+        const BasisValues<dim, n> &
+        basis() const
+        {
+          return lanes.of_points.basis[0];
+        }
+
+        int
+        local(const int A) const
+        {
+          return lanes.of_points.local[0][A];
+        }
+
+        PackOfSlots               slots; ///< the point alone, in lane 0
+        PorousLanes<dim, pattern> lanes;
         double                    at_face[n];
         double                    pressure;
       };
@@ -54,7 +64,7 @@ namespace kedge
       scale_area(const PoreTrial<dim> &trial, double (&area)[dim]) const
       {
         for (int R = 0; R < dim; ++R)
-          area[R] = face.area[R] / (trial.volume * trial.determinant);
+          area[R] = face.area[R] / (trial.volume[0] * trial.determinant[0]);
       }
 
       double
@@ -69,8 +79,8 @@ namespace kedge
       }
     };
 
-    template <int dim, class Material>
-    struct SurfaceResidualKernel : SurfaceKernel<dim, Material>
+    template <int dim>
+    struct SurfaceResidualKernel : SurfaceKernel<dim>
     {
       std::vector<double> &residual;
       std::vector<double> &outflow; ///< volume that leaves, by surface
@@ -79,25 +89,26 @@ namespace kedge
       void
       run() const
       {
-        typedef typename SurfaceKernel<dim, Material>::template Values<pattern> Values;
-        const Values                                                            v(*this);
-        const PoreResponse<dim> r = respond<false>(this->b, this->face.slot, v.trial);
-        if (!r.valid)
+        typedef typename SurfaceKernel<dim>::template Values<pattern> Values;
+        const Values                                                  v(*this);
+        PoreResponse<dim>                                             r;
+        respond<false>(this->b, v.slots, v.lanes.trial, r);
+        if (!r.valid[0])
           return; // the batch's own kernel has said so
         double area[dim];
-        this->scale_area(v.trial, area);
+        this->scale_area(v.lanes.trial, area);
         double volume =
           this->penalty() * (v.pressure - this->b.trial.surface_pressures[this->face.surface]);
         for (int R = 0; R < dim; ++R)
-          volume -= area[R] * r.fluid_gradient[R];
+          volume -= area[R] * r.fluid_gradient[R][0];
         outflow[this->face.surface] += volume;
         for (int A = 0; A < Values::n; ++A)
-          residual[std::size_t(v.x.local[A]) * (dim + 1) + dim] += v.at_face[A] * volume;
+          residual[std::size_t(v.local(A)) * (dim + 1) + dim] += v.at_face[A] * volume;
       }
     };
 
-    template <int dim, class Material>
-    struct SurfaceTangentKernel : SurfaceKernel<dim, Material>
+    template <int dim>
+    struct SurfaceTangentKernel : SurfaceKernel<dim>
     {
       NodeMatrix<dim> &tangent;
 
@@ -105,25 +116,26 @@ namespace kedge
       void
       run() const
       {
-        typedef typename SurfaceKernel<dim, Material>::template Values<pattern> Values;
-        constexpr int                                                           n = Values::n;
-        const auto              slots = pair_slots<dim, pattern>(tangent);
-        const Values            v(*this);
-        const PoreResponse<dim> r = respond<true>(this->b, this->face.slot, v.trial);
-        double                  area[dim];
-        this->scale_area(v.trial, area);
+        typedef typename SurfaceKernel<dim>::template Values<pattern> Values;
+        constexpr int                                                 n = Values::n;
+        const auto        rows = row_slots<dim, pattern>(tangent);
+        const Values      v(*this);
+        PoreResponse<dim> r;
+        respond<true>(this->b, v.slots, v.lanes.trial, r);
+        double area[dim];
+        this->scale_area(v.lanes.trial, area);
         const double penalty = this->penalty();
         // slope of the volume that leaves by the unknowns of node B
         double slope[dim + 1][n];
         for (int B = 0; B < n; ++B)
           {
-            const double N = v.basis.linear.value[B];
+            const double N = v.basis().value[B];
             slope[dim][B]  = penalty * v.at_face[B];
             for (int R = 0; R < dim; ++R)
               {
-                double by_p = r.pp_weight[R] * N;
+                double by_p = r.pp_weight[R][0] * N;
                 for (int S = 0; S < dim; ++S)
-                  by_p += r.pp[R][S] * v.basis.linear.gradient[S][B];
+                  by_p += r.pp[R][S][0] * v.basis().gradient[S][B];
                 slope[dim][B] -= area[R] * by_p;
               }
             for (int m = 0; m < dim; ++m)
@@ -131,30 +143,31 @@ namespace kedge
                 slope[m][B] = 0.;
                 for (int R = 0; R < dim; ++R)
                   {
-                    double by_u = r.pu_inertia[R][m] * N;
+                    double by_u = r.pu_inertia[R][m][0] * N;
                     for (int S = 0; S < dim; ++S)
-                      by_u += r.pu[R][m][S] * v.basis.linear.gradient[S][B];
+                      by_u += r.pu[R][m][S][0] * v.basis().gradient[S][B];
                     slope[m][B] -= area[R] * by_u;
                   }
               }
           }
+        double values[n * (dim + 1)];
         for (int A = 0; A < n; ++A)
           {
-            double *row = tangent.row(v.x.local[A], dim);
             for (int B = 0; B < n; ++B)
               for (int m = 0; m <= dim; ++m)
-                row[slots[A][B] * (dim + 1) + m] += v.at_face[A] * slope[m][B];
+                values[B * (dim + 1) + m] = v.at_face[A] * slope[m][B];
+            add_to_row<dim, pattern, dim + 1>(rows[A], values, tangent.row(v.local(A), dim));
           }
       }
     };
 
     /** Calls run(face) for the faces of a batch's points. */
-    template <int dim, class Material, typename Run>
+    template <int dim, typename Run>
     inline void
-    for_faces(const PorousBatch<dim, Material> &b, const Run &run)
+    for_faces(const PorousBatch<dim> &b, const Run &run)
     {
       for (const SurfacePoint<dim> &face : b.trial.surface)
-        if (face.slot >= b.batch.begin && face.slot < b.batch.end)
+        if (face.slot >= b.context.batch.begin && face.slot < b.context.batch.end)
           run(face);
     }
   } // namespace internal

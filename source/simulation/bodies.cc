@@ -1,6 +1,7 @@
 #include <kedge/simulation/bodies.h>
 
 #include <algorithm>
+#include <set>
 
 namespace kedge
 {
@@ -44,12 +45,17 @@ namespace kedge
 
 
 
-  bool
-  Bodies::has_history() const
+  template <int dim>
+  PointLayout<dim>
+  layout_of_points(const Bodies &bodies, const bool pores, const bool accelerations)
   {
-    return std::any_of(materials.begin(), materials.end(), [](const Material &m) {
-      return kedge::has_history(m);
-    });
+    AssertThrow(memory_columns().size() <= most_memory_columns, dealii::ExcInternalError());
+    std::set<unsigned int> used;
+    for (const auto &columns : bodies.columns)
+      used.insert(columns.begin(), columns.end());
+    used.erase(not_in_memory);
+    const bool plastic = std::any_of(bodies.materials.begin(), bodies.materials.end(), yields);
+    return PointLayout<dim>({used.begin(), used.end()}, plastic, pores, accelerations);
   }
 
 
@@ -89,6 +95,7 @@ namespace kedge
         const MaterialParameters &material = scene.materials[body.material];
         result.names.push_back(body.name);
         result.materials.push_back(make_material(material));
+        result.columns.push_back(memory_indices(result.materials.back()));
         result.young_moduli.push_back(material.young_modulus);
         result.densities.push_back(material.density);
         result.bases.push_back(body.basis);
@@ -110,6 +117,10 @@ namespace kedge
     return result;
   }
 
+  template PointLayout<2>
+  layout_of_points(const Bodies &, const bool, const bool);
+  template PointLayout<3>
+  layout_of_points(const Bodies &, const bool, const bool);
   template Bodies
   read_bodies(const Scene<2> &);
   template Bodies

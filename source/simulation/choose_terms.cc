@@ -29,7 +29,7 @@ namespace kedge
     const Patch<dim> &patch = here.patch;
 
     auto &motion = add_term(std::make_unique<MotionTerm<dim>>(field, patch, here.transfer.get()));
-    add_term(std::make_unique<HistoryTerm<dim>>(field, patch, bodies.materials));
+    add_term(std::make_unique<HistoryTerm<dim>>(field, patch, bodies.materials, bodies.columns));
     if (!scene.pore_fluid)
       {
         add_term(std::make_unique<SolidTerm<dim>>(field, patch, bodies.materials, scheme));

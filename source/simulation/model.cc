@@ -2,6 +2,7 @@
 #include <kedge/points/attachment_checks.h>
 #include <kedge/points/generation.h>
 #include <kedge/simulation/model.h>
+#include <kedge/solid/initial_history.h>
 #include <kedge/solid/initial_stress.h>
 
 #include <sstream>
@@ -16,7 +17,9 @@ namespace kedge
     , communicator(communicator)
     , scheme(scene.time)
     , bodies(read_bodies(scene))
-    , points(scene.grid, communicator)
+    , points(scene.grid,
+             layout_of_points<dim>(bodies, scene.pore_fluid.has_value(), scheme.carries_acceleration),
+             communicator)
   {
     make_fields(program);
     for (unsigned int field = 0; field < fields.size(); ++field)
@@ -40,7 +43,7 @@ namespace kedge
     parameters.body_names       = bodies.names;
     parameters.basis_of_body    = bodies.bases;
     parameters.shared_volume    = bodies.shared_volume;
-    parameters.with_history     = bodies.has_history();
+    parameters.columns_of_body  = bodies.columns;
     parameters.smallest_filling = ties ? scene.stabilisation.smallest_filling : 0.;
     parameters.coarse_pressure  = scene.pore_fluid && scene.pore_fluid->coarse_pressure;
     parameters.n_components     = scene.pore_fluid ? dim + 1 : dim;
@@ -114,6 +117,10 @@ namespace kedge
         else
           made.insert(made.end(), of_body.begin(), of_body.end());
       }
+    std::vector<MaterialParameters> parameters;
+    for (const auto &body : scene.bodies)
+      parameters.push_back(scene.materials[body.material]);
+    set_initial_history(parameters, scene.constants, made);
     set_initial_stress(scene.bodies, bodies.materials, scene.constants, made);
     for (auto &term : terms)
       term->attach(made);

@@ -4,9 +4,11 @@ namespace kedge
 {
   template <int dim>
   PointsOnGrid<dim>::PointsOnGrid(const GridParameters<dim> &parameters,
+                                  const PointLayout<dim>    &layout,
                                   const MPI_Comm             communicator)
     : communicator(communicator)
     , background(parameters, communicator)
+    , cloud(layout)
   {}
 
 

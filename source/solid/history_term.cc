@@ -5,10 +5,12 @@ namespace kedge
   template <int dim>
   HistoryTerm<dim>::HistoryTerm(const unsigned int           field,
                                 const Patch<dim>            &patch,
-                                const std::vector<Material> &material_of_body)
+                                const std::vector<Material> &material_of_body,
+                                const MemoryColumns         &columns_of_body)
     : field(field)
     , patch(patch)
     , material_of_body(material_of_body)
+    , columns_of_body(columns_of_body)
     , has_plasticity(std::any_of(material_of_body.begin(), material_of_body.end(), yields))
   {}
 
@@ -54,16 +56,23 @@ namespace kedge
   void
   HistoryTerm<dim>::commit(const Trial<dim> &, MaterialPoints<dim> &cloud)
   {
-    std::vector<PointState<dim> *> changed;
-    changed.reserve(patch.points.size());
+    const std::vector<unsigned int>    &slot_of = patch.points.slot_of;
+    std::vector<dealii::Tensor<2, dim>> deformation_gradients(patch.points.size());
     cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
-      const unsigned int slot = patch.points.slot_of[number];
+      const unsigned int slot = slot_of[number];
       if (slot == StepPoints<dim>::no_slot)
         return;
-      changed.push_back(&state);
-      apply_point_update(updates[slot], state);
+      apply_point_update(updates[slot],
+                         columns_of_body[static_cast<unsigned int>(state.body)],
+                         state);
+      deformation_gradients[slot] = state.deformation_gradient;
     });
-    update_domains(changed);
+    const auto stretches = stretches_along_axes(deformation_gradients);
+    cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
+      const unsigned int slot = slot_of[number];
+      for (int d = 0; d < dim && slot != StepPoints<dim>::no_slot; ++d)
+        state.half_lengths[d] = state.reference_half_lengths[d] * stretches[slot][d];
+    });
   }
 
 

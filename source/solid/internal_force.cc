@@ -2,35 +2,6 @@
 
 namespace kedge
 {
-  namespace internal
-  {
-    // compiled in internal_force_2d.cc and internal_force_3d.cc
-    extern template void
-    add_batch_force(const BatchContext<2> &,
-                    const Material &,
-                    const StressRule,
-                    std::vector<double> &,
-                    PointStatus &);
-    extern template void
-    add_batch_stiffness(const BatchContext<2> &,
-                        const Material &,
-                        const StressRule,
-                        NodeMatrix<2> &);
-    extern template void
-    add_batch_force(const BatchContext<3> &,
-                    const Material &,
-                    const StressRule,
-                    std::vector<double> &,
-                    PointStatus &);
-    extern template void
-    add_batch_stiffness(const BatchContext<3> &,
-                        const Material &,
-                        const StressRule,
-                        NodeMatrix<3> &);
-  } // namespace internal
-
-
-
   template <int dim>
   InternalForce<dim>::InternalForce(const std::vector<Material> &material_of_body,
                                     const StressRule             rule,
@@ -77,7 +48,9 @@ namespace kedge
                                                   batch,
                                                   fraction,
                                                   points.is_grouped(batch) ? &dilatation : nullptr};
-        internal::add_batch_force(context, materials[batch.body], stress_rule, force, status);
+        const internal::BatchLaw<dim>     law(context, materials[batch.body], stress_rule, false);
+        dispatch_pattern<dim>(batch.pattern,
+                              internal::ForceKernel<dim>{context, law, force, status});
         if (!status.ok())
           break;
       }
@@ -105,7 +78,9 @@ namespace kedge
                                                   batch,
                                                   fraction,
                                                   points.is_grouped(batch) ? &dilatation : nullptr};
-        internal::add_batch_stiffness(context, materials[batch.body], stress_rule, stiffness);
+        const internal::BatchLaw<dim>     law(context, materials[batch.body], stress_rule, true);
+        dispatch_pattern<dim>(batch.pattern,
+                              internal::StiffnessKernel<dim>{context, law, stiffness});
       }
     add_group_stiffness(materials,
                         stress_rule,

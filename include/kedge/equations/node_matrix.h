@@ -171,35 +171,6 @@ namespace kedge
           }
   }
 
-  /** Slots of all node pairs of a stencil pattern: slots[A][B] is the slot of B in the row of A. */
-  template <int dim, unsigned int pattern>
-  inline std::array<std::array<unsigned int, stencil_size<dim>(pattern)>,
-                    stencil_size<dim>(pattern)>
-  pair_slots(const NodeMatrix<dim> &matrix)
-  {
-    constexpr int n           = stencil_size<dim>(pattern);
-    const auto    coordinates = [](int A) {
-      LatticeIndex<dim> index;
-      for (int d = 0; d < dim; ++d)
-        {
-          index[d] = A % stencil_width(pattern, d);
-          A /= stencil_width(pattern, d);
-        }
-      return index;
-    };
-    std::array<std::array<unsigned int, n>, n> slots;
-    for (int A = 0; A < n; ++A)
-      for (int B = 0; B < n; ++B)
-        {
-          const auto        a = coordinates(A), b = coordinates(B);
-          LatticeIndex<dim> offset;
-          for (int d = 0; d < dim; ++d)
-            offset[d] = b[d] - a[d];
-          slots[A][B] = matrix.slot(offset);
-        }
-    return slots;
-  }
-
   /**
    * Where the nodes of a stencil stand in the row of each of them: [A][run] is the
    * slot of the first node of each run in x direction. The others of a run follow.

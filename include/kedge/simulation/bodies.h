@@ -3,7 +3,9 @@
 
 #include <kedge/scene/scene.h>
 
+#include <kedge/fields/step_points.h>
 #include <kedge/materials/material.h>
+#include <kedge/points/point_layout.h>
 #include <kedge/porous/pore_points.h>
 
 namespace kedge
@@ -23,8 +25,7 @@ namespace kedge
     std::vector<unsigned int> field;                 ///< number of the field it belongs to
     std::vector<std::string>  field_names;           ///< one per field
 
-    bool
-    has_history() const;
+    MemoryColumns columns; ///< of their laws' histories, in the points' memory
 
     /** How far points couple nodes, in intervals of the lattice. */
     int
@@ -34,6 +35,11 @@ namespace kedge
     int
     tangent_radius() const;
   };
+
+  /** What the points of the bodies have to remember; nothing that they do not need is stored. */
+  template <int dim>
+  PointLayout<dim>
+  layout_of_points(const Bodies &bodies, const bool pores, const bool accelerations);
 
   template <int dim>
   Bodies

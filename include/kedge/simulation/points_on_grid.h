@@ -10,7 +10,10 @@ namespace kedge
   class PointsOnGrid
   {
   public:
-    PointsOnGrid(const GridParameters<dim> &parameters, const MPI_Comm communicator);
+    /** @param layout what the points store */
+    PointsOnGrid(const GridParameters<dim> &parameters,
+                 const PointLayout<dim>    &layout,
+                 const MPI_Comm             communicator);
 
     /**
      * Starts anew with these points, of which every rank has all: the first hands them

@@ -17,7 +17,8 @@ namespace kedge
   public:
     HistoryTerm(const unsigned int           field,
                 const Patch<dim>            &patch,
-                const std::vector<Material> &material_of_body);
+                const std::vector<Material> &material_of_body,
+                const MemoryColumns         &columns_of_body);
 
     std::string
     name() const override
@@ -41,6 +42,7 @@ namespace kedge
     const unsigned int            field;
     const Patch<dim>             &patch;
     const std::vector<Material>   material_of_body;
+    const MemoryColumns           columns_of_body; ///< in the points' memory
     bool                          has_plasticity;
     std::vector<PointUpdate<dim>> updates;
     Ledger::Index                 strain_energy = 0, hardening_energy = 0, dissipation = 0;

@@ -1,0 +1,9 @@
+#include "law_stage.h"
+
+namespace kedge
+{
+  namespace internal
+  {
+    KEDGE_INSTANTIATE_LAW(DruckerPrager)
+  } // namespace internal
+} // namespace kedge
