@@ -6,6 +6,9 @@ set(kedge_test_environment OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 find_program(KEDGE_MPIRUN NAMES mpirun mpiexec REQUIRED)
 
 # kedge_add_test(name COMMAND ... [LABELS ...] [RANKS n] [TIMEOUT s])
+# The limits guard against tests that hang. They are those of a quiet machine times
+# KEDGE_TEST_PATIENCE, for a slow or loaded machine is no fault.
+set(KEDGE_TEST_PATIENCE 6 CACHE STRING "Factor on the time limits of tests")
 function(kedge_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "RANKS;TIMEOUT" "COMMAND;LABELS")
   foreach(default "RANKS=1" "TIMEOUT=120")
@@ -14,10 +17,11 @@ function(kedge_add_test name)
       set(arg_${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
     endif()
   endforeach()
+  math(EXPR limit "${arg_TIMEOUT} * ${KEDGE_TEST_PATIENCE}")
   add_test(NAME ${name} COMMAND ${arg_COMMAND})
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "${kedge_test_environment}" PROCESSORS ${arg_RANKS}
-    TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
+    TIMEOUT ${limit} LABELS "${arg_LABELS}"
     FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
@@ -40,6 +44,8 @@ function(kedge_add_unit_tests target)
   else()
     target_link_libraries(${target} kedge::kedge)
     kedge_set_up_target(${target})
+    # what is to be fast stands in the library; tests are compiled often
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_precompile_headers(${target} REUSE_FROM kedge_library)
   endif()
   target_link_libraries(${target} GTest::gtest)

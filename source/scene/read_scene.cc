@@ -429,19 +429,20 @@ namespace kedge
     scene.node_conditions = read_node_conditions<dim>(reader);
     scene.materials       = read_materials(reader);
     scale_softening(scene.grid.extent[0] / scene.grid.n_cells[0], scene.materials);
-    scene.bodies          = read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
-    scene.contacts        = read_contacts(reader);
-    scene.body_force      = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
-    scene.point_loads     = read_point_loads<dim>(reader);
-    scene.tractions       = read_tractions<dim>(reader);
-    scene.time            = read_time(reader);
-    scene.equilibrium     = {SectionReader(reader, {"Equilibrium"}).whole_number("Steps"),
-                             SectionReader(reader, {"Equilibrium"}).number("Duration")};
-    scene.newton          = read_newton(reader);
-    scene.linear_solver   = read_linear_solver(reader);
-    scene.transfer        = read_mapping(reader);
-    scene.stabilisation   = read_stabilisation(reader);
-    scene.pore_fluid      = read_pore_fluid<dim>(reader, scene);
+    scene.bodies =
+      read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
+    scene.contacts      = read_contacts(reader);
+    scene.body_force    = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
+    scene.point_loads   = read_point_loads<dim>(reader);
+    scene.tractions     = read_tractions<dim>(reader);
+    scene.time          = read_time(reader);
+    scene.equilibrium   = {SectionReader(reader, {"Equilibrium"}).whole_number("Steps"),
+                           SectionReader(reader, {"Equilibrium"}).number("Duration")};
+    scene.newton        = read_newton(reader);
+    scene.linear_solver = read_linear_solver(reader);
+    scene.transfer      = read_mapping(reader);
+    scene.stabilisation = read_stabilisation(reader);
+    scene.pore_fluid    = read_pore_fluid<dim>(reader, scene);
     if (scene.linear_solver.kind == LinearSolverKind::krylov_blocks && !scene.pore_fluid)
       throw SectionReader(reader, {"Linear solver"})
         .error("Method",

@@ -18,7 +18,9 @@ namespace kedge
     , scheme(scene.time)
     , bodies(read_bodies(scene))
     , points(scene.grid,
-             layout_of_points<dim>(bodies, scene.pore_fluid.has_value(), scheme.carries_acceleration),
+             layout_of_points<dim>(bodies,
+                                   scene.pore_fluid.has_value(),
+                                   scheme.carries_acceleration),
              communicator)
   {
     make_fields(program);

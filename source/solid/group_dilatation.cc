@@ -151,12 +151,16 @@ namespace kedge
           }
     }
 
+    /** Of a law whose mean stress is K tr eps; others have no groups. */
     double
     bulk_modulus(const Material &material)
     {
       return std::visit(
         [](const auto &m) {
-          return m.bulk_modulus;
+          if constexpr (std::decay_t<decltype(m)>::decoupled_volume)
+            return m.bulk_modulus;
+          else
+            return std::numeric_limits<double>::signaling_NaN();
         },
         material);
     }

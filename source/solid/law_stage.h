@@ -50,7 +50,7 @@ namespace kedge
       evaluate(const StressState<dim, Number> &state,
                const Number (&gradient)[dim][dim],
                const HistoryOf<Law, Number> &history,
-               const Number &strain) const
+               const Number                 &strain) const
       {
         return evaluate_mean_force_stress<dim, with_tangent, rule>(material,
                                                                    material.bulk_modulus * strain,

@@ -14,8 +14,8 @@ namespace kedge
     std::vector<std::string> body_names;    ///< of all bodies of the scene
     std::vector<bool>        holds_body;    ///< one per body; empty: all
     std::vector<BasisKind>   basis_of_body; ///< one per body
-    std::vector<bool> shared_volume; ///< bodies whose points in a cell share their dilatation
-    MemoryColumns            columns_of_body; ///< of the laws' histories, in the points' memory
+    std::vector<bool> shared_volume;   ///< bodies whose points in a cell share their dilatation
+    MemoryColumns     columns_of_body; ///< of the laws' histories, in the points' memory
     double            smallest_filling = 0.;    ///< below, nodes are tied [cells]; 0: none is
     bool              coarse_pressure  = false; ///< the pore pressure lives at cells' corners
     unsigned int      n_components     = 2;     ///< values per node: displacement, pressure

@@ -45,9 +45,9 @@ namespace kedge
     std::vector<StressState<dim>>       stress_state;
     std::vector<double>                 history;       ///< of the laws, see history_of()
     unsigned int                        n_history = 0; ///< numbers per slot in history
-    std::vector<unsigned int>           slot_of;       ///< of each point in the cloud's order, or no_slot
-    unsigned int                        n_cells = 0;   ///< cells with points
-    std::vector<unsigned int>           loaded;        ///< slots of the points that carry loads
+    std::vector<unsigned int>           slot_of; ///< of each point in the cloud's order, or no_slot
+    unsigned int                        n_cells = 0; ///< cells with points
+    std::vector<unsigned int>           loaded;      ///< slots of the points that carry loads
 
     /** Slot of the points of other fields' bodies. */
     static constexpr unsigned int no_slot = static_cast<unsigned int>(-1);

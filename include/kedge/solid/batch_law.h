@@ -1,8 +1,8 @@
 #ifndef kedge_solid_batch_law_h
 #define kedge_solid_batch_law_h
 
-#include <kedge/solid/group_dilatation.h>
 #include <kedge/fields/point_packs.h>
+#include <kedge/solid/group_dilatation.h>
 
 namespace kedge
 {

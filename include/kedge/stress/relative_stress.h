@@ -126,11 +126,11 @@ namespace kedge
 
     result.response = material.respond(state.strain, result.increment, history);
     if constexpr (Material::can_fail)
-      if (!result.response.valid)
-        {
-          result.valid = false;
+      {
+        result.valid = result.valid && result.response.valid;
+        if (!any(result.valid))
           return result;
-        }
+      }
 
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < dim; ++k)
