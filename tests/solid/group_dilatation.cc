@@ -315,7 +315,10 @@ TYPED_TEST(SolidGroupDilatation, PointsKeepTheVolumeStrainThatTheirStressBelongs
         [&](const auto &m) {
           const double pressure =
             trace(state.kirchhoff_stress) + state.out_of_plane_kirchhoff_stress;
-          EXPECT_NEAR(pressure, 3. * m.bulk_modulus * theta, 1e-13);
+          if constexpr (std::decay_t<decltype(m)>::decoupled_volume)
+            EXPECT_NEAR(pressure, 3. * m.bulk_modulus * theta, 1e-13);
+          else
+            FAIL() << "no law for groups";
           EXPECT_NEAR(m.energy(stored.strain, HistoryOf<std::decay_t<decltype(m)>>{}),
                       updates[slot].strain_energy,
                       1e-13);
