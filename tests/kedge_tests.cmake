@@ -44,8 +44,6 @@ function(kedge_add_unit_tests target)
   else()
     target_link_libraries(${target} kedge::kedge)
     kedge_set_up_target(${target})
-    # what is to be fast stands in the library; tests are compiled often
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_precompile_headers(${target} REUSE_FROM kedge_library)
   endif()
   target_link_libraries(${target} GTest::gtest)

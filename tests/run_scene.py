@@ -112,8 +112,9 @@ def compare(one, two, tolerance, same_solver):
             continue
         difference = max(abs(a - b) for a, b in zip(one[name], two[name]))
         if name == "newton_iterations":
-            # one more or less happens when a residual lands on the tolerance
-            good, relative = difference <= 1 or not same_solver, difference
+            # one more or less happens when a residual lands on the criterion of convergence,
+            # another one when it lands on that of the iterations added for the books
+            good, relative = difference <= 2 or not same_solver, difference
         else:
             relative = difference / scale[name] if difference > 0 else 0.0
             good = relative <= tolerance

@@ -100,8 +100,11 @@ kedge_add_scene_test(path.triaxial_drained.critical prm/paths/triaxial_drained.p
 
 kedge_add_scene_test(scene.discs_plastic_a prm/discs_plastic_a.prm
   COMPARE_RANKS 1e-6)
-kedge_add_scene_test(scene.discs_plastic_b prm/discs_plastic_b.prm
-  COMPARE_RANKS 1e-6)
+# as the discs part, at t = 4.6 s, round-off decides which cells of their rims hold a node:
+# the ranks agree to 1e-14 before and to 1e-3 after
+kedge_add_scene_test(scene.discs_plastic_b prm/discs_plastic_b.prm)
+kedge_add_scene_test(scene.discs_plastic_b.ranks prm/discs_plastic_b.prm
+  SET "Time/End = 4.3" "Checks/largest step/Tolerance = 1" COMPARE_RANKS 1e-10)
 kedge_add_scene_test(scene.taylor_bar prm/taylor_bar.prm
   SET "Constants/n = 25" "Constants/step = 0.75e-6" "Output/Points interval = 0" TIMEOUT 300)
 kedge_add_scene_test(scene.collapse prm/collapse.prm COMPARE_RANKS 1e-6)

@@ -14,6 +14,15 @@ namespace
     return with("set Model = hencky", lines);
   }
 
+  /** The same without the remedy against locking, which sand does not take. */
+  std::string
+  with_sand(const std::string &lines)
+  {
+    std::string       text   = with_stiff(lines);
+    const std::string remedy = "    set Volume change = cell mean\n";
+    return text.erase(text.find(remedy), remedy.size());
+  }
+
   const std::string path_text = R"(set Title = A path
 subsection Constants
   set g = 2
@@ -117,14 +126,14 @@ TEST(ScenePlasticity, SandMustNotDilateMoreThanItRubs)
 {
   const std::string sand     = "set Model = drucker_prager\n    set Cohesion = 1e3\n"
                                "    set Friction angle = 30\n    set Dilation angle = ";
-  const auto        material = read_scene<2>(parse(with_stiff(sand + "30"))).materials[1];
+  const auto        material = read_scene<2>(parse(with_sand(sand + "30"))).materials[1];
   EXPECT_EQ(material.kind, MaterialKind::drucker_prager);
   EXPECT_EQ(material.tension_cut_off, 0.8);
   EXPECT_EQ(material.apex_rounding, 0.1);
-  expect_parts(message_of(with_stiff(sand + "31")),
+  expect_parts(message_of(with_sand(sand + "31")),
                {"Dilation angle = 31", "larger than the angle of friction, 30", "make energy"});
-  expect_parts(message_of(with_stiff("set Dilation angle = 5")), {"Dilation angle = 5", "belongs"});
-  expect_parts(message_of(with_stiff("set Model = mohr_coulomb\n    set Cohesion = 1e3")),
+  expect_parts(message_of(with_sand("set Dilation angle = 5")), {"Dilation angle = 5", "belongs"});
+  expect_parts(message_of(with_sand("set Model = mohr_coulomb\n    set Cohesion = 1e3")),
                {"Friction angle", "Model mohr_coulomb needs it"});
 }
 

@@ -159,6 +159,22 @@ namespace
     return error / size;
   }
 
+  /**
+   * Differences over h = 1e-7: (1e-7/3e-4)^2 of the CLC stress, which bends on the scale of
+   * the step, and of round-off 1e-16/1e-7 of the strains of the surface, 4e-3. A yield
+   * point or an edge of the surface within the difference shows as an error of order 1,
+   * and no more if the difference is a tenth, whose round-off is ten times as large; a wrong
+   * tangent is wrong at both.
+   */
+  template <int dim, StressRule rule, class Material>
+  void
+  expect_slope(const Material &material, const Step<dim, Material> &step, const double alpha)
+  {
+    if (tangent_error<dim, rule>(material, step, alpha, 1e-7) < 1e-6)
+      return;
+    EXPECT_LT((tangent_error<dim, rule>(material, step, alpha, 1e-8)), 1e-5);
+  }
+
   template <int dim, class Material>
   void
   check_tangents(const Material &material)
@@ -172,14 +188,9 @@ namespace
           PointUpdate<dim> update;
           ASSERT_TRUE(update_point<dim>(material, step.state, step.history, step.A, update));
           n_plastic += update.dissipation > 0.;
-          // Differences over 1e-7: (1e-7/3e-4)^2 of the CLC stress, which bends on the scale of
-          // the step, and of round-off 1e-16/1e-7 of the strains of the surface, 4e-3. (A yield
-          // point within the difference would show as an error of order 1.)
-          EXPECT_LT((tangent_error<dim, StressRule::at_configuration>(material, step, 1., 1e-7)),
-                    1e-6);
-          EXPECT_LT((tangent_error<dim, StressRule::at_configuration>(material, step, 0.5, 1e-7)),
-                    1e-6);
-          EXPECT_LT((tangent_error<dim, StressRule::conserving>(material, step, 0.5, 1e-7)), 1e-6);
+          expect_slope<dim, StressRule::at_configuration>(material, step, 1.);
+          expect_slope<dim, StressRule::at_configuration>(material, step, 0.5);
+          expect_slope<dim, StressRule::conserving>(material, step, 0.5);
         }
     if (Material::yields)
       {
