@@ -13,31 +13,36 @@ namespace kedge
 
   template <int dim>
   void
-  EquationSystem<dim>::number_equations(const ActiveNodes<dim>         &nodes,
+  EquationSystem<dim>::number_equations(const Patch<dim>               &patch,
                                         const std::vector<NodalStatus> &status)
   {
     number.assign(status.size(), -1);
     nodal_of_equation.clear();
-    for (unsigned int i = 0; i < nodes.n_owned() * n_components; ++i)
+    for (unsigned int i = 0; i < patch.nodes.n_owned() * n_components; ++i)
       if (status[i] == NodalStatus::free)
         nodal_of_equation.push_back(i);
 
     const std::int64_t n_own = nodal_of_equation.size();
-    system_.communicator     = nodes.communicator();
+    system_.communicator     = patch.nodes.communicator();
     system_.first_row        = 0;
     system_.n_global         = n_own;
-    if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
+    if (dealii::Utilities::MPI::n_mpi_processes(patch.nodes.communicator()) > 1)
       {
-        MPI_Exscan(&n_own, &system_.first_row, 1, MPI_INT64_T, MPI_SUM, nodes.communicator());
-        if (dealii::Utilities::MPI::this_mpi_process(nodes.communicator()) == 0)
+        MPI_Exscan(&n_own, &system_.first_row, 1, MPI_INT64_T, MPI_SUM, patch.nodes.communicator());
+        if (dealii::Utilities::MPI::this_mpi_process(patch.nodes.communicator()) == 0)
           system_.first_row = 0;
-        MPI_Allreduce(&n_own, &system_.n_global, 1, MPI_INT64_T, MPI_SUM, nodes.communicator());
+        MPI_Allreduce(&n_own,
+                      &system_.n_global,
+                      1,
+                      MPI_INT64_T,
+                      MPI_SUM,
+                      patch.nodes.communicator());
       }
     for (std::int64_t e = 0; e < n_own; ++e)
       number[nodal_of_equation[e]] = system_.first_row + e;
-    nodes.update_ghosts(number, n_components);
+    patch.nodes.update_ghosts(number, n_components);
 
-    n_free.assign(nodes.n_local(), 0);
+    n_free.assign(patch.nodes.n_local(), 0);
     for (unsigned int i = 0; i < number.size(); ++i)
       if (number[i] >= 0)
         ++n_free[i / n_components];
@@ -47,31 +52,28 @@ namespace kedge
 
   template <int dim>
   std::vector<std::int64_t>
-  EquationSystem<dim>::neighbour_equations(const BackgroundGrid<dim> &grid,
-                                           const ActiveNodes<dim>    &nodes,
-                                           const NodeMatrix<dim>     &matrix) const
+  EquationSystem<dim>::neighbour_equations(const Patch<dim>      &patch,
+                                           const NodeMatrix<dim> &matrix) const
   {
     const unsigned int        width = matrix.n_slots() * n_components;
-    std::vector<std::int64_t> columns(std::size_t(nodes.n_local()) * width, -1);
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      for_neighbours(grid.window(),
-                     nodes,
-                     i,
-                     matrix,
-                     [&](const unsigned int slot, const unsigned int j) {
-                       for (unsigned int c = 0; c < n_components; ++c)
-                         columns[std::size_t(i) * width + slot * n_components + c] =
-                           number[std::size_t(j) * n_components + c];
-                     });
-    if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) == 1)
+    std::vector<std::int64_t> columns(std::size_t(patch.nodes.n_local()) * width, -1);
+    for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
+      for_neighbours(patch, i, matrix, [&](const unsigned int slot, const unsigned int j) {
+        for (unsigned int c = 0; c < n_components; ++c)
+          columns[std::size_t(i) * width + slot * n_components + c] =
+            number[std::size_t(j) * n_components + c];
+      });
+    if (dealii::Utilities::MPI::n_mpi_processes(patch.nodes.communicator()) == 1)
       return columns;
     // what other ranks know of the neighbours of nodes owned here
     auto own = columns;
-    nodes.send_to_owners(columns, width, [&](const unsigned int node, const std::int64_t *row) {
-      for (unsigned int k = 0; k < width; ++k)
-        if (own[std::size_t(node) * width + k] < 0)
-          own[std::size_t(node) * width + k] = row[k];
-    });
+    patch.nodes.send_to_owners(columns,
+                               width,
+                               [&](const unsigned int node, const std::int64_t *row) {
+                                 for (unsigned int k = 0; k < width; ++k)
+                                   if (own[std::size_t(node) * width + k] < 0)
+                                     own[std::size_t(node) * width + k] = row[k];
+                               });
     return own;
   }
 
@@ -91,12 +93,12 @@ namespace kedge
 
   template <int dim>
   void
-  EquationSystem<dim>::find_fed_nodes(const ActiveNodes<dim> &nodes)
+  EquationSystem<dim>::find_fed_nodes(const Patch<dim> &patch)
   {
     fed_nodes.clear();
     places.clear();
-    mark.assign(nodes.n_local(), 0);
-    offset_of.resize(nodes.n_local());
+    mark.assign(patch.nodes.n_local(), 0);
+    offset_of.resize(patch.nodes.n_local());
     const auto  &feeds   = tied_rows.feeds();
     const auto   n_feeds = static_cast<unsigned int>(feeds.size());
     unsigned int next    = 0;
@@ -180,8 +182,7 @@ namespace kedge
 
   template <int dim>
   std::vector<typename EquationSystem<dim>::RemoteBlock>
-  EquationSystem<dim>::exchange_remote_rows(const BackgroundGrid<dim> &grid,
-                                            const ActiveNodes<dim>    &nodes)
+  EquationSystem<dim>::exchange_remote_rows(const Patch<dim> &patch)
   {
     outgoing_ranges.clear();
     incoming_blocks.clear();
@@ -190,13 +191,13 @@ namespace kedge
     std::size_t                                       n_values = 0;
     Blocks                                            blocks;
     for (FedNode &fed : fed_nodes)
-      if (fed.node >= nodes.n_owned())
+      if (fed.node >= patch.nodes.n_owned())
         {
           blocks.clear();
           add_tied_blocks(fed, blocks);
           sort_and_merge(blocks);
           place_feeds(fed, blocks);
-          const unsigned int owner = grid.node_owner(nodes.window_node(fed.node));
+          const unsigned int owner = patch.grid().node_owner(patch.nodes.window_node(fed.node));
           fed.remote               = n_values;
           n_values += std::size_t(fed.row_length) * n_free[fed.node];
           auto &ranges = outgoing_ranges[owner];
@@ -210,11 +211,12 @@ namespace kedge
     remote_values.resize(n_values);
     std::vector<RemoteBlock> result;
     any_remote = false;
-    if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
-      any_remote = dealii::Utilities::MPI::logical_or(!requests.empty(), nodes.communicator());
+    if (dealii::Utilities::MPI::n_mpi_processes(patch.nodes.communicator()) > 1)
+      any_remote =
+        dealii::Utilities::MPI::logical_or(!requests.empty(), patch.nodes.communicator());
     if (!any_remote)
       return result;
-    incoming_blocks = dealii::Utilities::MPI::some_to_some(nodes.communicator(), requests);
+    incoming_blocks = dealii::Utilities::MPI::some_to_some(patch.nodes.communicator(), requests);
     for (const auto &[rank, received] : incoming_blocks)
       for (std::size_t k = 0; k < received.size(); k += 2 + 2 * received[k + 1])
         for (std::int64_t b = 0; b < received[k + 1]; ++b)
@@ -233,7 +235,7 @@ namespace kedge
 
   template <int dim>
   void
-  EquationSystem<dim>::build_rows(const ActiveNodes<dim>          &nodes,
+  EquationSystem<dim>::build_rows(const Patch<dim>                &patch,
                                   const std::vector<std::int64_t> &columns,
                                   const unsigned int               n_slots,
                                   const std::vector<RemoteBlock>  &remote)
@@ -244,7 +246,7 @@ namespace kedge
     auto   from_others = remote.begin();
     auto   fed         = fed_nodes.begin();
     Blocks blocks;
-    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+    for (unsigned int i = 0; i < patch.nodes.n_owned(); ++i)
       {
         if (n_free[i] == 0)
           continue;
@@ -343,19 +345,17 @@ namespace kedge
 
   template <int dim>
   void
-  EquationSystem<dim>::reinit(const BackgroundGrid<dim>      &grid,
-                              const ActiveNodes<dim>         &nodes,
-                              const NodeTies<dim>            &ties,
+  EquationSystem<dim>::reinit(const Patch<dim>               &patch,
                               const std::vector<NodalStatus> &status,
                               const NodeMatrix<dim>          &matrix)
   {
     n_components = matrix.n_components();
-    number_equations(nodes, status);
-    tied_rows.reinit(grid.window(), nodes, ties, status, matrix);
-    find_fed_nodes(nodes);
-    const auto remote  = exchange_remote_rows(grid, nodes);
-    const auto columns = neighbour_equations(grid, nodes, matrix);
-    build_rows(nodes, columns, matrix.n_slots(), remote);
+    number_equations(patch, status);
+    tied_rows.reinit(patch, status, matrix);
+    find_fed_nodes(patch);
+    const auto remote  = exchange_remote_rows(patch);
+    const auto columns = neighbour_equations(patch, matrix);
+    build_rows(patch, columns, matrix.n_slots(), remote);
     find_incoming_targets();
   }
 
@@ -363,7 +363,7 @@ namespace kedge
 
   template <int dim>
   void
-  EquationSystem<dim>::fill(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &matrix)
+  EquationSystem<dim>::fill(const Patch<dim> &patch, const NodeMatrix<dim> &matrix)
   {
     const std::size_t width   = std::size_t(matrix.n_slots()) * n_components;
     const auto        add_row = [&](const std::int64_t e, const double *row) {
@@ -378,11 +378,11 @@ namespace kedge
         if (number[node * n_components + p] >= 0)
           add_row(number[node * n_components + p] - system_.first_row, share + p * width);
     };
-    nodes.send_to_owners(matrix.values(), matrix.row_size(), add_share);
+    patch.nodes.send_to_owners(matrix.values(), matrix.row_size(), add_share);
     tied_rows.multiply(matrix);
     std::fill(remote_values.begin(), remote_values.end(), 0.);
     for (const FedNode &fed : fed_nodes)
-      add_fed_rows(fed, nodes.n_owned());
+      add_fed_rows(fed, patch.nodes.n_owned());
     if (any_remote)
       add_remote_rows();
   }

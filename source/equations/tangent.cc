@@ -26,11 +26,7 @@ namespace kedge
           continue;
         any = true;
         blocks[f].matrix.reinit(patch.nodes.n_local(), unknowns.fields[f].n_components, radius[f]);
-        blocks[f].equations.reinit(patch.grid(),
-                                   patch.nodes,
-                                   patch.ties,
-                                   patch.constraints.status(),
-                                   blocks[f].matrix);
+        blocks[f].equations.reinit(patch, patch.constraints.status(), blocks[f].matrix);
       }
     if (!any)
       return;
@@ -334,7 +330,7 @@ namespace kedge
   Tangent<dim>::assemble()
   {
     for (unsigned int f = 0; f < blocks.size(); ++f)
-      blocks[f].equations.fill(patches[f]->nodes, blocks[f].matrix);
+      blocks[f].equations.fill(*patches[f], blocks[f].matrix);
     const bool was_single = is_single();
     has_entries           = dealii::Utilities::MPI::logical_or(!entries.empty(), communicator());
     if (is_single())

@@ -33,9 +33,7 @@ namespace kedge
 
   template <int dim>
   void
-  TiedRows<dim>::add_row(const LatticeWindow<dim> &window,
-                         const ActiveNodes<dim>   &nodes,
-                         const NodeTies<dim>      &ties,
+  TiedRows<dim>::add_row(const Patch<dim>         &patch,
                          const std::vector<Parts> &parts,
                          const NodeMatrix<dim>    &matrix,
                          const unsigned int        node,
@@ -44,10 +42,10 @@ namespace kedge
     const auto first_column   = static_cast<unsigned int>(columns.size());
     const auto first_coupling = static_cast<unsigned int>(couplings.size());
     rows.push_back({node, part.components, first_column, 0, first_coupling, 0});
-    for_neighbours(window, nodes, node, matrix, [&](const unsigned int slot, const unsigned int j) {
+    for_neighbours(patch, node, matrix, [&](const unsigned int slot, const unsigned int j) {
       for (const Part &other : parts[j])
         if (other.components != 0 && (part.tie >= 0 || other.tie >= 0))
-          add_couplings(ties, slot, j, other);
+          add_couplings(patch.ties, slot, j, other);
     });
     rows.back().end_column   = static_cast<unsigned int>(columns.size());
     rows.back().end_coupling = static_cast<unsigned int>(couplings.size());
@@ -60,18 +58,16 @@ namespace kedge
     if (part.tie < 0)
       all_feeds.push_back({node, number, 1.});
     else
-      for (unsigned int k = 0; k < ties.ties()[part.tie].roots.size(); ++k)
+      for (unsigned int k = 0; k < patch.ties.ties()[part.tie].roots.size(); ++k)
         all_feeds.push_back(
-          {ties.ties()[part.tie].roots[k], number, ties.ties()[part.tie].weights[k]});
+          {patch.ties.ties()[part.tie].roots[k], number, patch.ties.ties()[part.tie].weights[k]});
   }
 
 
 
   template <int dim>
   void
-  TiedRows<dim>::reinit(const LatticeWindow<dim>       &window,
-                        const ActiveNodes<dim>         &nodes,
-                        const NodeTies<dim>            &ties,
+  TiedRows<dim>::reinit(const Patch<dim>               &patch,
                         const std::vector<NodalStatus> &status,
                         const NodeMatrix<dim>          &matrix)
   {
@@ -80,27 +76,27 @@ namespace kedge
     columns.clear();
     couplings.clear();
     all_feeds.clear();
-    if (ties.empty())
+    if (patch.ties.empty())
       return;
-    mark.assign(nodes.n_local(), 0);
-    place_of_column.resize(nodes.n_local());
-    std::vector<Parts> parts(nodes.n_local(), Parts{{{-1, 0}, {-1, 0}, {-1, 0}}});
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+    mark.assign(patch.nodes.n_local(), 0);
+    place_of_column.resize(patch.nodes.n_local());
+    std::vector<Parts> parts(patch.nodes.n_local(), Parts{{{-1, 0}, {-1, 0}, {-1, 0}}});
+    for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
       for (unsigned int c = 0; c < n_components; ++c)
         {
           const NodalStatus s = status[std::size_t(i) * n_components + c];
           if (s == NodalStatus::prescribed)
             continue;
-          const int  tie   = s == NodalStatus::tied ? ties.tie_of(i, static_cast<int>(c)) : -1;
-          const bool apart = c == dim && tie != ties.tie_of(i);
+          const int  tie = s == NodalStatus::tied ? patch.ties.tie_of(i, static_cast<int>(c)) : -1;
+          const bool apart = c == dim && tie != patch.ties.tie_of(i);
           Part      &part  = parts[i][tie < 0 ? 0 : apart ? 2 : 1];
           part.tie         = tie;
           part.components |= 1u << c;
         }
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+    for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
       for (const Part &part : parts[i])
         if (part.components != 0)
-          add_row(window, nodes, ties, parts, matrix, i, part);
+          add_row(patch, parts, matrix, i, part);
     std::stable_sort(all_feeds.begin(), all_feeds.end(), [](const Feed &a, const Feed &b) {
       return a.node < b.node;
     });

@@ -85,7 +85,6 @@ namespace kedge
                    const fs::path           &state,
                    const unsigned int        dim,
                    const unsigned int        n_state_values,
-                   const std::string        &scene_fingerprint,
                    const unsigned int        n_ranks)
     {
       const std::string begin = "The checkpoint '" + state.string() + "' ";
@@ -97,16 +96,22 @@ namespace kedge
         throw UserError(begin + "was written by another version of kedge, whose material points " +
                         "hold other values. Resume with that version, or start afresh without " +
                         "--resume.");
-      if (manifest.scene_fingerprint != scene_fingerprint)
-        throw UserError(begin + "belongs to another scene (fingerprint " +
-                        manifest.scene_fingerprint + ", this scene has " + scene_fingerprint +
-                        "). Resume with the scene and the settings with which the run began, or " +
-                        "start afresh without --resume.");
       if (manifest.files.size() != n_ranks)
         throw UserError(begin + "was written by " + std::to_string(manifest.files.size()) +
                         " MPI ranks, this run has " + std::to_string(n_ranks) +
                         ". Resume it with 'mpirun -np " + std::to_string(manifest.files.size()) +
                         "'.");
+    }
+
+    /** Throws UserError if the scene has changed since. */
+    void
+    check_settings(const SceneSettings &then, const SceneSettings &now, const fs::path &state)
+    {
+      const std::string changes = forbidden_changes(then, now);
+      if (!changes.empty())
+        throw UserError("The checkpoint '" + state.string() + "' belongs to another scene: " +
+                        changes + ". Resume with the scene and the settings with which the run " +
+                        "began, or start afresh without --resume.");
     }
 
     /** Why the content is not what the manifest says; empty if it is. */
@@ -135,7 +140,7 @@ namespace kedge
     template <int dim>
     std::string
     read_state(const fs::path      &state,
-               const std::string   &scene_fingerprint,
+               const SceneSettings &settings,
                const MPI_Comm       communicator,
                CheckpointData<dim> &data)
     {
@@ -150,7 +155,7 @@ namespace kedge
         {
           return error.what();
         }
-      check_manifest(manifest, state, dim, n_state_values<dim>, scene_fingerprint, n_ranks);
+      check_manifest(manifest, state, dim, n_state_values<dim>, n_ranks);
       try
         {
           const std::string content = read_file(state / rank_file(rank));
@@ -163,8 +168,8 @@ namespace kedge
         {
           return error.what();
         }
-      data.scene_fingerprint = scene_fingerprint;
-      data.n_ranks           = n_ranks;
+      check_settings(data.settings, settings, state);
+      data.n_ranks = n_ranks;
       return "";
     }
   } // namespace
@@ -211,7 +216,7 @@ namespace kedge
     const auto files = dealii::Utilities::MPI::gather(communicator, file);
 
     run_on_root(communicator, [&]() {
-      const CheckpointManifest manifest{dim, n_state_values<dim>, data.scene_fingerprint, files};
+      const CheckpointManifest manifest{dim, n_state_values<dim>, files};
       replace_file(unfinished / "manifest.txt", manifest.text());
       std::error_code error;
       fs::rename(unfinished, location / state_name(next), error);
@@ -238,7 +243,7 @@ namespace kedge
 
   template <int dim>
   CheckpointData<dim>
-  CheckpointStore<dim>::read_latest(const std::string &scene_fingerprint)
+  CheckpointStore<dim>::read_latest(const SceneSettings &settings)
   {
     const MPI_Comm                   communicator = folder.communicator();
     const std::vector<std::uint64_t> numbers =
@@ -256,7 +261,7 @@ namespace kedge
         CheckpointData<dim> data;
         std::string         damage;
         run_on_all(communicator, [&]() {
-          damage = read_state(state, scene_fingerprint, communicator, data);
+          damage = read_state(state, settings, communicator, data);
         });
         damage = first_text(damage, communicator);
         if (damage.empty())
@@ -269,16 +274,6 @@ namespace kedge
         damages += "The checkpoint " + state.string() + " is damaged: " + damage + ".\n";
       }
     throw UserError(damages + "No whole checkpoint is left." + remedy_afresh);
-  }
-
-
-
-  std::string
-  fingerprint(const std::string &scene_text)
-  {
-    std::ostringstream text;
-    text << std::hex << crc32_of(scene_text) << '-' << std::dec << scene_text.size();
-    return text.str();
   }
 
 

@@ -114,6 +114,12 @@ namespace kedge
   pack_checkpoint(const CheckpointData<dim> &data)
   {
     Packer packer;
+    packer.put(data.settings.size());
+    for (const auto &[name, value] : data.settings)
+      {
+        packer.put(name);
+        packer.put(value);
+      }
     packer.put(data.scalars.size());
     for (const auto &[name, value] : data.scalars)
       {
@@ -149,6 +155,11 @@ namespace kedge
     for (std::uint64_t n = unpacker.number(); n > 0; --n)
       {
         const std::string name = unpacker.text();
+        data.settings[name]    = unpacker.text();
+      }
+    for (std::uint64_t n = unpacker.number(); n > 0; --n)
+      {
+        const std::string name = unpacker.text();
         unpacker.get(&data.scalars[name], 1);
       }
     for (std::uint64_t n = unpacker.number(); n > 0; --n)
@@ -181,7 +192,6 @@ namespace kedge
         << "ranks " << files.size() << '\n';
     for (const File &file : files)
       out << "file " << file.n_bytes << ' ' << file.crc << '\n';
-    out << "scene " << scene_fingerprint << '\n';
     const std::string body = out.str();
     return body + "crc " + std::to_string(crc32_of(body)) + '\n';
   }
@@ -207,8 +217,6 @@ namespace kedge
     manifest.files.resize(n_ranks);
     for (File &file : manifest.files)
       in >> word >> file.n_bytes >> file.crc;
-    in >> word >> std::ws;
-    std::getline(in, manifest.scene_fingerprint);
     return manifest;
   }
 

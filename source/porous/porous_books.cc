@@ -47,11 +47,7 @@ namespace kedge
                         Ledger              &ledger) const
   {
     std::vector<dealii::Tensor<1, dim>> displacement;
-    interpolate_to_points(patch.points,
-                          patch.window(),
-                          patch.nodes,
-                          trial.displacement(field),
-                          displacement);
+    interpolate_to_points(patch, trial.displacement(field), displacement);
     double       sums[4] = {0., 0., 0., 0.}; // work, Darcy, stabilisation, known part of the inflow
     const auto   f       = loads.body_acceleration(trial.times.t_n + 0.5 * trial.times.dt);
     const auto  &soils   = porous_force.soils();

@@ -18,14 +18,12 @@ namespace kedge
   template <int dim>
   template <class Run>
   void
-  PorousForce<dim>::for_batches(const StepPoints<dim>    &points,
-                                const PorePoints<dim>    &pores,
-                                const LatticeWindow<dim> &window,
-                                const ActiveNodes<dim>   &nodes,
-                                const PorousTrial<dim>   &trial,
-                                const Run                &run) const
+  PorousForce<dim>::for_batches(const Patch<dim>       &patch,
+                                const PorePoints<dim>  &pores,
+                                const PorousTrial<dim> &trial,
+                                const Run              &run) const
   {
-    for (const auto &batch : points.batches)
+    for (const auto &batch : patch.points.batches)
       {
         const Soil &soil = soil_of_body[batch.body];
         PoreStep<dim>
@@ -37,14 +35,14 @@ namespace kedge
           return internal::law_function<dim>(material,
                                              {StressRule::at_configuration, false, with_tangent});
         };
-        const bool goes_on = run(
-          internal::PorousBatch<dim>{{points, window, nodes, trial.unknowns, batch, alpha, nullptr},
-                                     pores,
-                                     trial,
-                                     step,
-                                     material,
-                                     law(false),
-                                     law(true)});
+        const bool goes_on =
+          run(internal::PorousBatch<dim>{{patch, trial.unknowns, batch, alpha, nullptr},
+                                         pores,
+                                         trial,
+                                         step,
+                                         material,
+                                         law(false),
+                                         law(true)});
         if (!goes_on)
           return;
       }
@@ -54,17 +52,15 @@ namespace kedge
 
   template <int dim>
   PointStatus
-  PorousForce<dim>::add_residual(const StepPoints<dim>    &points,
-                                 const PorePoints<dim>    &pores,
-                                 const LatticeWindow<dim> &window,
-                                 const ActiveNodes<dim>   &nodes,
-                                 const PorousTrial<dim>   &trial,
-                                 std::vector<double>      &residual,
-                                 std::vector<double>      &outflow,
-                                 PorousSize               &size) const
+  PorousForce<dim>::add_residual(const Patch<dim>       &patch,
+                                 const PorePoints<dim>  &pores,
+                                 const PorousTrial<dim> &trial,
+                                 std::vector<double>    &residual,
+                                 std::vector<double>    &outflow,
+                                 PorousSize             &size) const
   {
     PointStatus status;
-    for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
+    for_batches(patch, pores, trial, [&](const auto &batch) {
       dispatch_pattern<dim>(batch.context.batch.pattern,
                             internal::PorousResidualKernel<dim>{batch, residual, size, status});
       if (status.ok())
@@ -83,14 +79,12 @@ namespace kedge
 
   template <int dim>
   void
-  PorousForce<dim>::add_tangent(const StepPoints<dim>    &points,
-                                const PorePoints<dim>    &pores,
-                                const LatticeWindow<dim> &window,
-                                const ActiveNodes<dim>   &nodes,
-                                const PorousTrial<dim>   &trial,
-                                NodeMatrix<dim>          &tangent) const
+  PorousForce<dim>::add_tangent(const Patch<dim>       &patch,
+                                const PorePoints<dim>  &pores,
+                                const PorousTrial<dim> &trial,
+                                NodeMatrix<dim>        &tangent) const
   {
-    for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
+    for_batches(patch, pores, trial, [&](const auto &batch) {
       dispatch_pattern<dim>(batch.context.batch.pattern,
                             internal::PorousTangentKernel<dim>{batch, tangent});
       internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
@@ -105,15 +99,13 @@ namespace kedge
 
   template <int dim>
   void
-  PorousForce<dim>::evaluate_updates(const StepPoints<dim>        &points,
+  PorousForce<dim>::evaluate_updates(const Patch<dim>             &patch,
                                      const PorePoints<dim>        &pores,
-                                     const LatticeWindow<dim>     &window,
-                                     const ActiveNodes<dim>       &nodes,
                                      const PorousTrial<dim>       &trial,
                                      std::vector<PoreUpdate<dim>> &updates) const
   {
-    updates.resize(points.size());
-    for_batches(points, pores, window, nodes, trial, [&](const auto &batch) {
+    updates.resize(patch.points.size());
+    for_batches(patch, pores, trial, [&](const auto &batch) {
       dispatch_pattern<dim>(batch.context.batch.pattern,
                             internal::PoreUpdateKernel<dim>{batch, updates});
       return true;
@@ -124,16 +116,12 @@ namespace kedge
 
   template <int dim>
   std::vector<double>
-  PorousForce<dim>::fluctuations(const StepPoints<dim>     &points,
-                                 const LatticeWindow<dim>  &window,
-                                 const ActiveNodes<dim>    &nodes,
-                                 const std::vector<double> &nodal_pressure)
+  PorousForce<dim>::fluctuations(const Patch<dim> &patch, const std::vector<double> &nodal_pressure)
   {
-    std::vector<double> result(points.size());
-    for (const auto &batch : points.batches)
-      dispatch_pattern<dim>(
-        batch.pattern,
-        internal::FluctuationKernel<dim>{points, window, nodes, nodal_pressure, batch, result});
+    std::vector<double> result(patch.points.size());
+    for (const auto &batch : patch.points.batches)
+      dispatch_pattern<dim>(batch.pattern,
+                            internal::FluctuationKernel<dim>{patch, nodal_pressure, batch, result});
     return result;
   }
 

@@ -45,14 +45,12 @@ namespace kedge
       matrix.set_zero();
       return matrix;
     };
-    ghosts.penalty().add_gradient_penalty(patch.grid(),
-                                          patch.nodes,
+    ghosts.penalty().add_gradient_penalty(patch,
                                           parameters.ghost_conductivity_factor *
                                             fluid.hydraulic_conductivity /
                                             (fluid.fluid_density * fluid.reference_gravity),
                                           start(conductance));
-    ghosts.penalty().add_value_penalty(patch.grid(),
-                                       patch.nodes,
+    ghosts.penalty().add_value_penalty(patch,
                                        parameters.ghost_storage_factor / fluid.fluid_bulk_modulus,
                                        start(storage));
   }
@@ -76,15 +74,7 @@ namespace kedge
                                 ? patch.conditions.pressure(i, trial.times.t_n)
                                 : unknowns[k];
       }
-    project_pressure(patch.grid(),
-                     patch.nodes,
-                     patch.ties,
-                     patch.points,
-                     soil.pore_points().pressure,
-                     fluid.fluid_bulk_modulus,
-                     status,
-                     storage,
-                     nodal);
+    project_pressure(patch, soil.pore_points().pressure, fluid.fluid_bulk_modulus, storage, nodal);
     for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
       pressure_n[i] = nodal[std::size_t(i) * (dim + 1) + dim];
   }
@@ -104,8 +94,8 @@ namespace kedge
         if (parameters.ghost_storage_factor > 0.)
           change[i] = (pressure[i] - pressure_n[i]) / theta;
       }
-    multiply(conductance, patch.window(), patch.nodes, 1, pressure, product);
-    multiply(storage, patch.window(), patch.nodes, 1, change, result);
+    multiply(conductance, patch, 1, pressure, product);
+    multiply(storage, patch, 1, change, result);
     for (unsigned int i = 0; i < n; ++i)
       result[i] += trial.times.dt * product[i];
     return result;

@@ -77,7 +77,7 @@ namespace kedge
           if (new_nodes)
             read_acceleration(of_points.local[lane]);
           const auto &N = of_points.basis[lane].value;
-          expand_fluctuations<dim, pattern>(b.context.points.stencil[slots.slot(lane)],
+          expand_fluctuations<dim, pattern>(b.context.patch.points.stencil[slots.slot(lane)],
                                             N,
                                             fluctuation[lane]);
           const double(&pressure)[n] = of_points.nodal[dim];
@@ -117,8 +117,8 @@ namespace kedge
           b.pores.rate.empty()
             ? 0.
             : b.step.scheme.known_rate(b.pores.rate[slot], b.pores.rate_change[slot], b.step.dt);
-        trial.volume.set(lane, b.context.points.volume[slot]);
-        trial.determinant.set(lane, b.context.points.determinant[slot]);
+        trial.volume.set(lane, b.context.patch.points.volume[slot]);
+        trial.determinant.set(lane, b.context.patch.points.determinant[slot]);
         trial.pressure_n.set(lane, b.pores.pressure[slot]);
         trial.fluctuation_n.set(lane, b.pores.fluctuation[slot]);
         trial.known_rate.set(lane, rate);
@@ -371,9 +371,7 @@ namespace kedge
     template <int dim>
     struct FluctuationKernel
     {
-      const StepPoints<dim>                 &points;
-      const LatticeWindow<dim>              &window;
-      const ActiveNodes<dim>                &nodes;
+      const Patch<dim>                      &patch;
       const std::vector<double>             &nodal_pressure;
       const typename StepPoints<dim>::Batch &batch;
       std::vector<double>                   &result;
@@ -382,11 +380,11 @@ namespace kedge
       void
       run() const
       {
-        const auto offsets = node_offsets<dim, pattern>(window.node_strides());
+        const auto offsets = node_offsets<dim, pattern>(patch.window().node_strides());
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           {
             constexpr int       n       = stencil_size<dim>(pattern);
-            const Stencil<dim> &stencil = points.stencil[slot];
+            const Stencil<dim> &stencil = patch.points.stencil[slot];
             double              fluctuation[n];
             expand_fluctuations<dim, pattern>(stencil,
                                               expand<dim, pattern>(stencil).value,
@@ -394,7 +392,7 @@ namespace kedge
             result[slot] = 0.;
             for (int A = 0; A < n; ++A)
               result[slot] +=
-                fluctuation[A] * nodal_pressure[nodes.local(stencil.first_node + offsets[A])];
+                fluctuation[A] * nodal_pressure[patch.nodes.local(stencil.first_node + offsets[A])];
           }
       }
     };

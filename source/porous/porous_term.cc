@@ -153,8 +153,7 @@ namespace kedge
               v[d] = x[d];
             at_nodes[i] = pressure(v);
           }
-        const auto of_body =
-          PorousForce<dim>::fluctuations(patch.points, patch.window(), patch.nodes, at_nodes);
+        const auto of_body = PorousForce<dim>::fluctuations(patch, at_nodes);
         for (const auto &batch : patch.points.batches)
           if (batch.body == b)
             std::copy(of_body.begin() + batch.begin,
@@ -186,13 +185,7 @@ namespace kedge
   {
     blocks_have_values = false;
     outflow.resize(surfaces.pressures(trial.times.t_n).size());
-    pressure_mapping.map(patch.points,
-                         patch.window(),
-                         patch.nodes,
-                         patch.ties,
-                         pores.pressure,
-                         radius,
-                         trial.unknowns.fields[field]);
+    pressure_mapping.map(patch, pores.pressure, radius, trial.unknowns.fields[field]);
     set_supply(trial.times);
   }
 
@@ -204,12 +197,7 @@ namespace kedge
   {
     supply_share.assign(fluxes.empty() ? 0 : std::size_t(patch.nodes.n_local()) * (dim + 1), 0.);
     if (!fluxes.empty())
-      fluxes.add_supply(patch.points,
-                        patch.window(),
-                        patch.nodes,
-                        pressure_time(times),
-                        times.dt,
-                        supply_share);
+      fluxes.add_supply(patch, pressure_time(times), times.dt, supply_share);
     supply = supply_share;
     if (fluxes.empty())
       return;
@@ -262,16 +250,10 @@ namespace kedge
   {
     std::fill(outflow.begin(), outflow.end(), 0.);
     PorousSize           size;
-    std::vector<double> &sums     = residual.partial(field);
-    const PointStatus    status   = porous_force.add_residual(patch.points,
-                                                         pores,
-                                                         patch.window(),
-                                                         patch.nodes,
-                                                         at_trial(trial),
-                                                         sums,
-                                                         outflow,
-                                                         size);
-    double               supplied = 0.;
+    std::vector<double> &sums = residual.partial(field);
+    const PointStatus    status =
+      porous_force.add_residual(patch, pores, at_trial(trial), sums, outflow, size);
+    double supplied = 0.;
     for (std::size_t k = dim; k < supply.size(); k += dim + 1)
       {
         sums[k] -= supply_share[k];
@@ -294,19 +276,12 @@ namespace kedge
   {
     std::vector<double> &sums = residual.partial(field);
     std::vector<double>  unknowns(sums.size(), 0.);
-    pressure_mapping
-      .map(patch.points, patch.window(), patch.nodes, patch.ties, pores.pressure, radius, unknowns);
+    pressure_mapping.map(patch, pores.pressure, radius, unknowns);
     outflow.assign(surfaces.pressures(t).size(), 0.);
     const std::vector<double> at_rest;
     PorousSize                size;
-    porous_force.add_residual(patch.points,
-                              pores,
-                              patch.window(),
-                              patch.nodes,
-                              at(unknowns, at_rest, 0., 1., t, t),
-                              sums,
-                              outflow,
-                              size);
+    porous_force
+      .add_residual(patch, pores, at(unknowns, at_rest, 0., 1., t, t), sums, outflow, size);
   }
 
 
@@ -315,12 +290,7 @@ namespace kedge
   void
   PorousTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    porous_force.add_tangent(patch.points,
-                             pores,
-                             patch.window(),
-                             patch.nodes,
-                             at_trial(trial),
-                             tangent.lattice(field));
+    porous_force.add_tangent(patch, pores, at_trial(trial), tangent.lattice(field));
   }
 
 
@@ -335,20 +305,13 @@ namespace kedge
     if (solver.choose(tangent.system()) != LinearSolverKind::krylov_blocks)
       return;
     if (!blocks_have_pattern)
-      blocks.reinit(patch.grid(),
-                    patch.nodes,
-                    patch.ties,
-                    patch.constraints.status(),
-                    tangent.equations(field),
-                    tangent.lattice(field).radius());
+      blocks.reinit(patch, tangent.equations(field), tangent.lattice(field).radius());
     blocks_have_pattern = true;
     if (blocks_have_values)
       return;
     const double factor  = porous_force.scheme().content_factor();
     const double inertia = scheme.dynamic ? scheme.inertia_coefficient(trial.times.dt) : 0.;
-    blocks.assemble(patch.points,
-                    patch.window(),
-                    patch.nodes,
+    blocks.assemble(patch,
                     modulus_of_body,
                     factor / scheme.alpha_f,
                     inertia > 0. ? factor / inertia : 0.);
@@ -362,8 +325,7 @@ namespace kedge
   Answer
   PorousTerm<dim>::finish(const Trial<dim> &trial)
   {
-    porous_force
-      .evaluate_updates(patch.points, pores, patch.window(), patch.nodes, at_trial(trial), updates);
+    porous_force.evaluate_updates(patch, pores, at_trial(trial), updates);
     return {};
   }
 

@@ -5,18 +5,12 @@ namespace kedge
 {
   template <int dim>
   void
-  PressureBlocks<dim>::reinit(const BackgroundGrid<dim>      &grid,
-                              const ActiveNodes<dim>         &nodes,
-                              const NodeTies<dim>            &ties,
-                              const std::vector<NodalStatus> &status,
-                              const EquationSystem<dim>      &equations,
-                              const int                       radius)
+  PressureBlocks<dim>::reinit(const Patch<dim>          &patch,
+                              const EquationSystem<dim> &equations,
+                              const int                  radius)
   {
-    std::vector<NodalStatus> pressure_status(nodes.n_local());
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      pressure_status[i] = status[std::size_t(i) * (dim + 1) + dim];
-    matrix.reinit(nodes.n_local(), 1, radius);
-    pressures.reinit(grid, nodes, ties, pressure_status, matrix);
+    matrix.reinit(patch.nodes.n_local(), 1, radius);
+    pressures.reinit(patch, patch.constraints.status_of(dim), matrix);
 
     const unsigned int n = equations.system().n_rows();
     blocks_.dim          = dim;
@@ -25,8 +19,7 @@ namespace kedge
     for (unsigned int e = 0; e < n; ++e)
       {
         const unsigned int k = equations.nodal_index(e);
-        const auto         x =
-          grid.lattice().node_position(grid.window().node_index(nodes.window_node(k / (dim + 1))));
+        const auto         x = patch.node_position(k / (dim + 1));
         blocks_.component[e] = static_cast<unsigned char>(k % (dim + 1));
         for (int d = 0; d < dim; ++d)
           blocks_.position[std::size_t(e) * dim + d] = x[d];
@@ -37,32 +30,30 @@ namespace kedge
 
   template <int dim>
   void
-  PressureBlocks<dim>::assemble(const StepPoints<dim>     &points,
-                                const LatticeWindow<dim>  &window,
-                                const ActiveNodes<dim>    &nodes,
+  PressureBlocks<dim>::assemble(const Patch<dim>          &patch,
                                 const std::vector<double> &modulus_of_body,
                                 const double               stiffness_factor,
                                 const double               inertia_factor)
   {
-    weights.resize(points.size());
-    for (const auto &batch : points.batches)
+    weights.resize(patch.points.size());
+    for (const auto &batch : patch.points.batches)
       for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
-        weights[slot] = stiffness_factor * points.volume[slot] * points.determinant[slot] /
-                        modulus_of_body[batch.body];
-    assemble_mass(points, window, nodes, weights, matrix);
-    pressures.fill(nodes, matrix);
+        weights[slot] = stiffness_factor * patch.points.volume[slot] *
+                        patch.points.determinant[slot] / modulus_of_body[batch.body];
+    assemble_mass(patch, weights, matrix);
+    pressures.fill(patch, matrix);
     blocks_.by_stiffness = pressures.system();
 
     blocks_.by_inertia = SparseSystem();
     if (inertia_factor == 0.)
       return;
-    for (unsigned int slot = 0; slot < points.size(); ++slot)
+    for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
       {
-        const double volume = points.volume[slot] * points.determinant[slot];
-        weights[slot]       = inertia_factor * volume * volume / points.mass[slot];
+        const double volume = patch.points.volume[slot] * patch.points.determinant[slot];
+        weights[slot]       = inertia_factor * volume * volume / patch.points.mass[slot];
       }
-    assemble_laplacian(points, window, nodes, weights, matrix);
-    pressures.fill(nodes, matrix);
+    assemble_laplacian(patch, weights, matrix);
+    pressures.fill(patch, matrix);
     blocks_.by_inertia = pressures.system();
   }
 

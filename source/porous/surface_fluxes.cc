@@ -9,26 +9,24 @@ namespace kedge
     template <int dim>
     struct SupplyKernel
     {
-      const StepPoints<dim>    &points;
-      const LatticeWindow<dim> &window;
-      const ActiveNodes<dim>   &nodes;
-      const SurfacePoint<dim>  &face;
-      const double              volume;
-      std::vector<double>      &supply;
+      const Patch<dim>        &patch;
+      const SurfacePoint<dim> &face;
+      const double             volume;
+      std::vector<double>     &supply;
 
       template <unsigned int pattern>
       void
       run() const
       {
-        const auto  offsets = node_offsets<dim, pattern>(window.node_strides());
-        const auto &stencil = points.stencil[face.slot];
+        const auto  offsets = node_offsets<dim, pattern>(patch.window().node_strides());
+        const auto &stencil = patch.points.stencil[face.slot];
         const auto  basis   = expand<dim, pattern>(stencil);
         for (int A = 0; A < stencil_size<dim>(pattern); ++A)
           {
             double value = basis.value[A];
             for (int d = 0; d < dim; ++d)
               value += basis.gradient[d][A] * face.offset[d];
-            const auto node = nodes.local(stencil.first_node + offsets[A]);
+            const auto node = patch.nodes.local(stencil.first_node + offsets[A]);
             supply[std::size_t(node) * (dim + 1) + dim] += volume * value;
           }
       }
@@ -52,14 +50,12 @@ namespace kedge
 
   template <int dim>
   void
-  SurfaceFluxes<dim>::add_supply(const StepPoints<dim>    &points,
-                                 const LatticeWindow<dim> &window,
-                                 const ActiveNodes<dim>   &nodes,
-                                 const double              t,
-                                 const double              dt,
-                                 std::vector<double>      &supply) const
+  SurfaceFluxes<dim>::add_supply(const Patch<dim>    &patch,
+                                 const double         t,
+                                 const double         dt,
+                                 std::vector<double> &supply) const
   {
-    for (const auto &batch : points.batches)
+    for (const auto &batch : patch.points.batches)
       for (const SurfacePoint<dim> &face : this->points())
         {
           if (face.slot < batch.begin || face.slot >= batch.end)
@@ -67,13 +63,11 @@ namespace kedge
           double x[4] = {0, 0, 0, program.time(t)}, square = 0.;
           for (int d = 0; d < dim; ++d)
             {
-              x[d] = points.location[face.slot][d] + face.offset[d];
+              x[d] = patch.points.location[face.slot][d] + face.offset[d];
               square += face.area[d] * face.area[d];
             }
           dispatch_pattern<dim>(batch.pattern,
-                                SupplyKernel<dim>{points,
-                                                  window,
-                                                  nodes,
+                                SupplyKernel<dim>{patch,
                                                   face,
                                                   expressions[face.surface](x) * std::sqrt(square) *
                                                     dt,

@@ -3,8 +3,12 @@
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/values.h>
 
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 namespace kedge
@@ -371,6 +375,28 @@ namespace kedge
                              dealii::ParameterHandler::ShortPRM |
                                dealii::ParameterHandler::KeepDeclarationOrder);
     return out.str();
+  }
+
+
+
+  std::map<std::string, std::string>
+  ParameterReader::settings() const
+  {
+    std::stringstream json;
+    handler.print_parameters(json, dealii::ParameterHandler::ShortJSON);
+    boost::property_tree::ptree tree;
+    boost::property_tree::read_json(json, tree);
+    std::map<std::string, std::string>                                                  result;
+    const std::function<void(const boost::property_tree::ptree &, const std::string &)> collect =
+      [&](const boost::property_tree::ptree &section, const std::string &path) {
+        for (const auto &[name, child] : section)
+          if (child.empty())
+            result[path + name] = child.data();
+          else
+            collect(child, path + name + '/');
+      };
+    collect(tree, "");
+    return result;
   }
 
 

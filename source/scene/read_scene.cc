@@ -456,6 +456,7 @@ namespace kedge
     if (scene.pore_fluid)
       scene.time.pore_theta = SectionReader(reader, {"Pore fluid"}).number("Theta");
     scene.parameters = reader.print();
+    scene.settings   = reader.settings();
     return scene;
   }
 

@@ -6,36 +6,6 @@ namespace kedge
 {
   namespace
   {
-    /**
-     * What must agree between a checkpoint and the scene that resumes it: all
-     * parameters but those of output, the end of the run, and what one changes
-     * to go on after a stop at the step floor.
-     */
-    std::string
-    physics_of(const std::string &parameters)
-    {
-      std::istringstream lines(parameters);
-      std::string        line, result;
-      bool               in_output = false;
-      while (std::getline(lines, line))
-        {
-          const auto first = line.find_first_not_of(' ');
-          if (first == std::string::npos || line[first] == '#')
-            continue;
-          const std::string word = line.substr(first);
-          if (word == "subsection Output" || word == "subsection Checks")
-            in_output = true;
-          bool may_change = in_output;
-          for (const char *name : {"End", "Title", "Step", "Smallest step factor", "Iterations"})
-            may_change = may_change || word.rfind("set " + std::string(name) + " ", 0) == 0;
-          if (!may_change)
-            result += word + "\n";
-          if (in_output && first == 0 && word == "end")
-            in_output = false;
-        }
-      return result;
-    }
-
     /** Adds the cells of a field, all of whose nodes are active. */
     template <int dim>
     void
@@ -195,14 +165,14 @@ namespace kedge
     if (grid_output)
       grid_output->flush();
     CheckpointData<dim> data;
-    data.scene_fingerprint = fingerprint(physics_of(model.scene.parameters));
-    data.n_ranks           = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    const auto state       = clock.state();
-    data.scalars           = {{"time", state.time},
-                              {"nominal_step", state.nominal},
-                              {"wall_time", wall_time()},
-                              {"points_times_steps", counts.points_times_steps},
-                              {"next_output_time", counts.next_output_time}};
+    data.settings    = model.scene.settings;
+    data.n_ranks     = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const auto state = clock.state();
+    data.scalars     = {{"time", state.time},
+                        {"nominal_step", state.nominal},
+                        {"wall_time", wall_time()},
+                        {"points_times_steps", counts.points_times_steps},
+                        {"next_output_time", counts.next_output_time}};
     for (const auto &[name, value] : model.ledger.save())
       data.scalars["ledger " + name] = value;
     data.counters       = {{"steps", state.n_steps},
@@ -270,10 +240,9 @@ namespace kedge
   void
   Run<dim>::resume()
   {
-    const CheckpointData<dim> data =
-      checkpoints.read_latest(fingerprint(physics_of(model.scene.parameters)));
-    LatticeWindow<dim> covered;
-    const auto        &window = data.arrays.at("covered_cells");
+    const CheckpointData<dim> data = checkpoints.read_latest(model.scene.settings);
+    LatticeWindow<dim>        covered;
+    const auto               &window = data.arrays.at("covered_cells");
     for (int d = 0; d < dim; ++d)
       {
         covered.low[d]     = static_cast<int>(window[2 * d]);

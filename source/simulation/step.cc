@@ -1,4 +1,5 @@
 #include <kedge/simulation/step.h>
+#include <kedge/transfer/node_sums.h>
 
 namespace kedge
 {
@@ -287,7 +288,7 @@ namespace kedge
               values[2]      = p_wave_modulus(model.bodies.materials[batch.body]);
             }
         std::vector<double> at_nodes(3 * std::size_t(patch.nodes.n_local()), 0.);
-        add_scalars_to_nodes(points, patch.window(), patch.nodes, at_points, 3, at_nodes);
+        add_scalars_to_nodes(patch, at_points, 3, at_nodes);
         patch.nodes.add_to_owners(at_nodes, 3);
         for (unsigned int i = 0; i < patch.nodes.n_owned(); ++i)
           {

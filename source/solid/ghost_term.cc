@@ -37,7 +37,7 @@ namespace kedge
   GhostTerm<dim>::reach(const unsigned int of_field, std::vector<unsigned char> &reached)
   {
     if (of_field == field)
-      ghosts.find(patch.grid(), patch.points, modulus_of_body, reached);
+      ghosts.find(patch, modulus_of_body, reached);
   }
 
 
@@ -52,12 +52,9 @@ namespace kedge
       matrix.set_zero();
       return matrix;
     };
-    ghosts.add_stiffness(patch.grid(),
-                         patch.nodes,
-                         parameters.ghost_stiffness_factor,
-                         start(stiffness));
+    ghosts.add_stiffness(patch, parameters.ghost_stiffness_factor, start(stiffness));
     if (scheme.dynamic)
-      ghosts.add_mass(patch.grid(), patch.nodes, parameters.ghost_mass_factor, start(mass));
+      ghosts.add_mass(patch, parameters.ghost_mass_factor, start(mass));
   }
 
 
@@ -68,7 +65,7 @@ namespace kedge
   {
     if (of_field != field)
       return;
-    is_mapped = lumped_mass_ratio(patch.nodes, mapped) < badly_conditioned_mass;
+    is_mapped = lumped_mass_ratio(patch, mapped) < badly_conditioned_mass;
     if (is_mapped)
       for (std::size_t k = 0; k < mapped.values().size(); ++k)
         mapped.values()[k] += mass.values()[k];
@@ -82,9 +79,9 @@ namespace kedge
   {
     const std::vector<double> &u = trial.displacement(field);
     std::vector<double>        force(u.size()), inertia(u.size(), 0.);
-    multiply(stiffness, patch.window(), patch.nodes, dim, u, force);
+    multiply(stiffness, patch, dim, u, force);
     if (scheme.dynamic)
-      multiply(mass, patch.window(), patch.nodes, dim, trial.motion[field].acceleration, inertia);
+      multiply(mass, patch, dim, trial.motion[field].acceleration, inertia);
     std::vector<double> &sums         = residual.partial(field);
     const std::size_t    n_components = patch.n_components();
     for (std::size_t i = 0; i < u.size() / dim; ++i)
@@ -118,13 +115,13 @@ namespace kedge
     const std::vector<double> &u = trial.displacement(field);
     std::vector<double>        product(u.size());
     double                     sum = 0.;
-    multiply(stiffness, patch.window(), patch.nodes, dim, u, product);
+    multiply(stiffness, patch, dim, u, product);
     for (std::size_t i = 0; i < u.size(); ++i)
       sum += scheme.alpha_f * u[i] * product[i];
     if (!scheme.dynamic)
       return sum;
     const auto &motion = trial.motion[field];
-    multiply(mass, patch.window(), patch.nodes, dim, motion.acceleration, product);
+    multiply(mass, patch, dim, motion.acceleration, product);
     for (std::size_t i = 0; i < u.size(); ++i)
       sum += u[i] * product[i];
     if (!is_mapped)
@@ -132,7 +129,7 @@ namespace kedge
     std::vector<double> change = trial.end_velocity(scheme, field);
     for (std::size_t i = 0; i < u.size(); ++i)
       change[i] -= motion.velocity_n[i];
-    multiply(mass, patch.window(), patch.nodes, dim, change, product);
+    multiply(mass, patch, dim, change, product);
     for (std::size_t i = 0; i < u.size(); ++i)
       sum -= motion.velocity_n[i] * product[i];
     return sum;

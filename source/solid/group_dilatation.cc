@@ -14,11 +14,8 @@ namespace kedge
     {
       using Values = std::vector<dealii::Tensor<1, dim>>; ///< [group * size + A]
 
-      GroupSlopes(const StepPoints<dim>    &points,
-                  const LatticeWindow<dim> &window,
-                  const int                 matrix_radius)
-        : points(points)
-        , window(window)
+      GroupSlopes(const Patch<dim> &patch, const int matrix_radius)
+        : patch(patch)
         , width(std::min(matrix_radius + 1, 4))
       {
         for (int d = 0; d < dim; ++d)
@@ -26,7 +23,7 @@ namespace kedge
             strides[d] = size;
             size *= width;
           }
-        stress.resize(std::size_t(size) * points.group_cell.size());
+        stress.resize(std::size_t(size) * patch.points.group_cell.size());
         strain.resize(stress.size());
       }
 
@@ -34,7 +31,7 @@ namespace kedge
       LatticeIndex<dim>
       first_node(const unsigned int group) const
       {
-        LatticeIndex<dim> first = window.cell_index(points.group_cell[group]);
+        LatticeIndex<dim> first = patch.window().cell_index(patch.points.group_cell[group]);
         if (width > 2)
           for (int &index : first)
             --index;
@@ -45,8 +42,9 @@ namespace kedge
       std::size_t
       place(const unsigned int group, const unsigned int window_node) const
       {
-        const LatticeIndex<dim> first = first_node(group), node = window.node_index(window_node);
-        std::size_t             result = std::size_t(group) * size;
+        const LatticeIndex<dim> first = first_node(group),
+                                node  = patch.window().node_index(window_node);
+        std::size_t result            = std::size_t(group) * size;
         for (int d = 0; d < dim; ++d)
           {
             Assert(node[d] >= first[d] && node[d] < first[d] + width, dealii::ExcInternalError());
@@ -55,12 +53,11 @@ namespace kedge
         return result;
       }
 
-      const StepPoints<dim>    &points;
-      const LatticeWindow<dim> &window;
-      const int                 width;
-      int                       size = 1;
-      std::array<int, dim>      strides;
-      Values                    stress, strain;
+      const Patch<dim>    &patch;
+      const int            width;
+      int                  size = 1;
+      std::array<int, dim> strides;
+      Values               stress, strain;
     };
 
     /** Fills GroupSlopes with the points of a batch. */
@@ -76,8 +73,8 @@ namespace kedge
       void
       run() const
       {
-        const StepPoints<dim> &points = slopes.points;
-        const auto             places = node_offsets<dim, pattern>(slopes.strides);
+        const Patch<dim> &patch  = slopes.patch;
+        const auto        places = node_offsets<dim, pattern>(slopes.strides);
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           {
             double A[dim][dim];
@@ -85,14 +82,14 @@ namespace kedge
               for (int j = 0; j < dim; ++j)
                 A[i][j] = gradients[slot][i][j];
             const VolumeSlopes<dim> slope =
-              evaluate_volume_slopes<dim, rule>(points.stress_state[slot], A, alpha);
-            const auto        basis = expand<dim, pattern>(points.stencil[slot]);
+              evaluate_volume_slopes<dim, rule>(patch.points.stress_state[slot], A, alpha);
+            const auto        basis = expand<dim, pattern>(patch.points.stencil[slot]);
             const std::size_t first =
-              slopes.place(points.group[slot], points.stencil[slot].first_node);
+              slopes.place(patch.points.group[slot], patch.points.stencil[slot].first_node);
             for (int N = 0; N < stencil_size<dim>(pattern); ++N)
               for (int R = 0; R < dim; ++R)
                 {
-                  const double weighted = points.volume[slot] * basis.gradient[R][N];
+                  const double weighted = patch.points.volume[slot] * basis.gradient[R][N];
                   for (int p = 0; p < dim; ++p)
                     {
                       slopes.stress[first + places[N]][p] += weighted * slope.stress[p][R];
@@ -106,13 +103,12 @@ namespace kedge
     /** Adds factor * stress (x) strain of a group, between all nodes that its points reach. */
     template <int dim>
     void
-    add_group(const GroupSlopes<dim>   &slopes,
-              const unsigned int        group,
-              const double              factor,
-              const LatticeWindow<dim> &window,
-              const ActiveNodes<dim>   &nodes,
-              NodeMatrix<dim>          &stiffness)
+    add_group(const GroupSlopes<dim> &slopes,
+              const unsigned int      group,
+              const double            factor,
+              NodeMatrix<dim>        &stiffness)
     {
+      const Patch<dim> &patch = slopes.patch;
       struct Reached
       {
         int local, slot; ///< slot differences are those of the lattice offsets
@@ -134,7 +130,7 @@ namespace kedge
               offset[d] = A / slopes.strides[d] % slopes.width;
               node[d]   = first[d] + offset[d];
             }
-          reached[n++] = {nodes.local(window.node_number(node)),
+          reached[n++] = {patch.nodes.local(patch.window().node_number(node)),
                           static_cast<int>(stiffness.slot(offset)),
                           &slopes.stress[place],
                           &slopes.strain[place]};
@@ -170,14 +166,12 @@ namespace kedge
 
   template <int dim>
   PointStatus
-  evaluate_group_dilatation(const StepPoints<dim>     &points,
-                            const LatticeWindow<dim>  &window,
-                            const ActiveNodes<dim>    &nodes,
+  evaluate_group_dilatation(const Patch<dim>          &patch,
                             const std::vector<double> &displacement,
                             const double               fraction,
                             GroupDilatation           &result)
   {
-    const std::size_t n_groups = points.group_cell.size();
+    const std::size_t n_groups = patch.points.group_cell.size();
     result.volume.assign(n_groups, 0.);
     result.strain_n.assign(n_groups, 0.);
     result.increment.assign(n_groups, 0.);
@@ -186,9 +180,9 @@ namespace kedge
       return status;
 
     std::vector<dealii::Tensor<2, dim>> gradients;
-    gradients_at_points(points, window, nodes, displacement, gradients);
-    for (unsigned int slot = 0; slot < points.size(); ++slot)
-      if (points.group[slot] != StepPoints<dim>::no_group)
+    gradients_at_points(patch, displacement, gradients);
+    for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
+      if (patch.points.group[slot] != StepPoints<dim>::no_group)
         {
           double A[dim][dim];
           for (int i = 0; i < dim; ++i)
@@ -199,9 +193,9 @@ namespace kedge
               status.failed_slot = slot;
               return status;
             }
-          const unsigned int g      = points.group[slot];
-          const double       volume = points.volume[slot];
-          const auto        &strain = points.stress_state[slot].strain;
+          const unsigned int g      = patch.points.group[slot];
+          const double       volume = patch.points.volume[slot];
+          const auto        &strain = patch.points.stress_state[slot].strain;
           result.volume[g] += volume;
           result.strain_n[g] += volume * (strain[0] + strain[1] + strain[2]);
           result.increment[g] += volume * relative_volume_strain<dim>(A);
@@ -222,26 +216,24 @@ namespace kedge
   add_group_stiffness(const std::vector<Material> &materials,
                       const StressRule             rule,
                       const double                 alpha,
-                      const StepPoints<dim>       &points,
-                      const LatticeWindow<dim>    &window,
-                      const ActiveNodes<dim>      &nodes,
+                      const Patch<dim>            &patch,
                       const std::vector<double>   &displacement,
                       NodeMatrix<dim>             &stiffness)
   {
-    if (points.group_cell.empty())
+    if (patch.points.group_cell.empty())
       return;
     std::vector<dealii::Tensor<2, dim>> gradients;
-    gradients_at_points(points, window, nodes, displacement, gradients);
-    GroupSlopes<dim>    slopes(points, window, stiffness.radius());
-    std::vector<double> modulus(points.group_cell.size(), 0.), volume = modulus;
-    for (const auto &batch : points.batches)
-      if (points.is_grouped(batch))
+    gradients_at_points(patch, displacement, gradients);
+    GroupSlopes<dim>    slopes(patch, stiffness.radius());
+    std::vector<double> modulus(patch.points.group_cell.size(), 0.), volume = modulus;
+    for (const auto &batch : patch.points.batches)
+      if (patch.points.is_grouped(batch))
         {
           const double K = bulk_modulus(materials[batch.body]);
           for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
             {
-              volume[points.group[slot]] += points.volume[slot];
-              modulus[points.group[slot]] = K;
+              volume[patch.points.group[slot]] += patch.points.volume[slot];
+              modulus[patch.points.group[slot]] = K;
             }
           if (rule == StressRule::conserving)
             dispatch_pattern<dim>(
@@ -254,22 +246,18 @@ namespace kedge
         }
     const double part = rule == StressRule::conserving ? 0.5 : 1.;
     for (std::size_t g = 0; g < modulus.size(); ++g)
-      add_group(slopes, g, part * modulus[g] / volume[g], window, nodes, stiffness);
+      add_group(slopes, g, part * modulus[g] / volume[g], stiffness);
   }
 
 #define KEDGE_INSTANTIATE(dim)                                                \
-  template PointStatus evaluate_group_dilatation(const StepPoints<dim> &,     \
-                                                 const LatticeWindow<dim> &,  \
-                                                 const ActiveNodes<dim> &,    \
+  template PointStatus evaluate_group_dilatation(const Patch<dim> &,          \
                                                  const std::vector<double> &, \
                                                  const double,                \
                                                  GroupDilatation &);          \
   template void        add_group_stiffness(const std::vector<Material> &,     \
                                            const StressRule,                  \
                                            const double,                      \
-                                           const StepPoints<dim> &,           \
-                                           const LatticeWindow<dim> &,        \
-                                           const ActiveNodes<dim> &,          \
+                                           const Patch<dim> &,                \
                                            const std::vector<double> &,       \
                                            NodeMatrix<dim> &);
   KEDGE_INSTANTIATE(2)

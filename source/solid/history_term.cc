@@ -39,12 +39,8 @@ namespace kedge
   Answer
   HistoryTerm<dim>::finish(const Trial<dim> &trial)
   {
-    const unsigned int failed = evaluate_point_updates(material_of_body,
-                                                       patch.points,
-                                                       patch.window(),
-                                                       patch.nodes,
-                                                       trial.displacement(field),
-                                                       updates);
+    const unsigned int failed =
+      evaluate_point_updates(material_of_body, patch, trial.displacement(field), updates);
     return failed == PointStatus::none ? Answer()
                                        : Answer::failure(patch.describe_point(failed) +
                                                          " has det F <= 0 at the end of the step");

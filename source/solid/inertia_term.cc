@@ -7,12 +7,7 @@ namespace kedge
   Answer
   InertiaTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
   {
-    multiply(mass,
-             patch.window(),
-             patch.nodes,
-             dim,
-             trial.motion[field].acceleration,
-             residual.partial(field));
+    multiply(mass, patch, dim, trial.motion[field].acceleration, residual.partial(field));
     return {};
   }
 

@@ -15,39 +15,34 @@ namespace kedge
 
   template <int dim>
   PointStatus
-  InternalForce<dim>::evaluate_groups(const StepPoints<dim>     &points,
-                                      const LatticeWindow<dim>  &window,
-                                      const ActiveNodes<dim>    &nodes,
+  InternalForce<dim>::evaluate_groups(const Patch<dim>          &patch,
                                       const std::vector<double> &displacement,
                                       GroupDilatation           &dilatation) const
   {
     const double at = stress_rule == StressRule::conserving ? 1. : fraction;
-    return evaluate_group_dilatation(points, window, nodes, displacement, at, dilatation);
+    return evaluate_group_dilatation(patch, displacement, at, dilatation);
   }
 
 
 
   template <int dim>
   PointStatus
-  InternalForce<dim>::add_force(const StepPoints<dim>     &points,
-                                const LatticeWindow<dim>  &window,
-                                const ActiveNodes<dim>    &nodes,
+  InternalForce<dim>::add_force(const Patch<dim>          &patch,
                                 const std::vector<double> &displacement,
                                 std::vector<double>       &force) const
   {
     GroupDilatation dilatation;
-    PointStatus     status = evaluate_groups(points, window, nodes, displacement, dilatation);
+    PointStatus     status = evaluate_groups(patch, displacement, dilatation);
     if (!status.ok())
       return status;
-    for (const auto &batch : points.batches)
+    for (const auto &batch : patch.points.batches)
       {
-        const internal::BatchContext<dim> context{points,
-                                                  window,
-                                                  nodes,
+        const internal::BatchContext<dim> context{patch,
                                                   displacement,
                                                   batch,
                                                   fraction,
-                                                  points.is_grouped(batch) ? &dilatation : nullptr};
+                                                  patch.points.is_grouped(batch) ? &dilatation
+                                                                                 : nullptr};
         const internal::BatchLaw<dim>     law(context, materials[batch.body], stress_rule, false);
         dispatch_pattern<dim>(batch.pattern,
                               internal::ForceKernel<dim>{context, law, force, status});
@@ -61,35 +56,25 @@ namespace kedge
 
   template <int dim>
   void
-  InternalForce<dim>::add_stiffness(const StepPoints<dim>     &points,
-                                    const LatticeWindow<dim>  &window,
-                                    const ActiveNodes<dim>    &nodes,
+  InternalForce<dim>::add_stiffness(const Patch<dim>          &patch,
                                     const std::vector<double> &displacement,
                                     NodeMatrix<dim>           &stiffness) const
   {
     GroupDilatation dilatation;
-    evaluate_groups(points, window, nodes, displacement, dilatation);
-    for (const auto &batch : points.batches)
+    evaluate_groups(patch, displacement, dilatation);
+    for (const auto &batch : patch.points.batches)
       {
-        const internal::BatchContext<dim> context{points,
-                                                  window,
-                                                  nodes,
+        const internal::BatchContext<dim> context{patch,
                                                   displacement,
                                                   batch,
                                                   fraction,
-                                                  points.is_grouped(batch) ? &dilatation : nullptr};
+                                                  patch.points.is_grouped(batch) ? &dilatation
+                                                                                 : nullptr};
         const internal::BatchLaw<dim>     law(context, materials[batch.body], stress_rule, true);
         dispatch_pattern<dim>(batch.pattern,
                               internal::StiffnessKernel<dim>{context, law, stiffness});
       }
-    add_group_stiffness(materials,
-                        stress_rule,
-                        fraction,
-                        points,
-                        window,
-                        nodes,
-                        displacement,
-                        stiffness);
+    add_group_stiffness(materials, stress_rule, fraction, patch, displacement, stiffness);
   }
 
   template class InternalForce<2>;

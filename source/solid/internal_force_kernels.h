@@ -22,7 +22,7 @@ namespace kedge
       run() const
       {
         constexpr int               n      = stencil_size<dim>(pattern);
-        const StepPoints<dim>      &points = context.points;
+        const StepPoints<dim>      &points = context.patch.points;
         LanesOfPoints<dim, pattern> lanes(context);
         ForceStress<dim, Pack>      stress;
         double                      sum[dim][n] = {};
@@ -112,7 +112,7 @@ namespace kedge
       run() const
       {
         const auto                  rows   = row_slots<dim, pattern>(stiffness);
-        const StepPoints<dim>      &points = context.points;
+        const StepPoints<dim>      &points = context.patch.points;
         LanesOfPoints<dim, pattern> lanes(context);
         ForceStress<dim, Pack>      stress;
         BlockSum<dim, pattern>      sum;

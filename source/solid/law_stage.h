@@ -1,6 +1,7 @@
 #ifndef kedge_solid_law_stage_h
 #define kedge_solid_law_stage_h
 
+#include <kedge/materials/lane_by_lane.h>
 #include <kedge/solid/batch_law.h>
 #include <kedge/stress/mean_dilatation.h>
 
@@ -13,15 +14,15 @@ namespace kedge
     struct PointwiseLaw
     {
       using Law = MaterialLaw;
-      const BatchContext<dim> &context;
-      const Law               &material;
+      const BatchContext<dim>   &context;
+      const InPacks<MaterialLaw> material;
 
-      template <bool with_tangent, typename Number>
-      ForceStress<dim, Number>
-      evaluate(const StressState<dim, Number> &state,
-               const Number (&gradient)[dim][dim],
-               const HistoryOf<Law, Number> &history,
-               const Number &) const
+      template <bool with_tangent>
+      ForceStress<dim, Pack>
+      evaluate(const StressState<dim, Pack> &state,
+               const Pack (&gradient)[dim][dim],
+               const HistoryOf<Law, Pack> &history,
+               const Pack &) const
       {
         return evaluate_force_stress<dim, with_tangent, rule>(material,
                                                               state,
@@ -42,15 +43,15 @@ namespace kedge
     struct GroupLaw
     {
       using Law = MaterialLaw;
-      const BatchContext<dim> &context;
-      const Law               &material;
+      const BatchContext<dim>   &context;
+      const InPacks<MaterialLaw> material;
 
-      template <bool with_tangent, typename Number>
-      ForceStress<dim, Number>
-      evaluate(const StressState<dim, Number> &state,
-               const Number (&gradient)[dim][dim],
-               const HistoryOf<Law, Number> &history,
-               const Number                 &strain) const
+      template <bool with_tangent>
+      ForceStress<dim, Pack>
+      evaluate(const StressState<dim, Pack> &state,
+               const Pack (&gradient)[dim][dim],
+               const HistoryOf<Law, Pack> &history,
+               const Pack                 &strain) const
       {
         return evaluate_mean_force_stress<dim, with_tangent, rule>(material,
                                                                    material.bulk_modulus * strain,
@@ -63,59 +64,11 @@ namespace kedge
       double
       strain_of_group(const unsigned int slot) const
       {
-        return context.dilatation->force_strain(rule, context.points.group[slot]);
+        return context.dilatation->force_strain(rule, context.patch.points.group[slot]);
       }
     };
 
     /** Force stresses of the points in the lanes. */
-    template <int dim, bool with_tangent, class Law>
-    inline void
-    evaluate_pack(const Law             &law,
-                  const StepPoints<dim> &points,
-                  const PackOfSlots     &slots,
-                  const Pack (&gradient)[dim][dim],
-                  ForceStress<dim, Pack> &result)
-    {
-      using Material = typename Law::Law;
-      if constexpr (Material::takes_packs)
-        {
-          Pack strain = 0.;
-          for (unsigned int lane = 0; lane < pack_width; ++lane)
-            strain.set(lane, law.strain_of_group(slots.slot(lane)));
-          result = law.template evaluate<with_tangent>(pack_of_states(points, slots),
-                                                       gradient,
-                                                       pack_of_histories<Material>(points, slots),
-                                                       strain);
-        }
-      else
-        {
-          result.valid = PackMask{};
-          for (unsigned int lane = 0; lane < slots.count; ++lane)
-            {
-              const unsigned int slot = slots.slot(lane);
-              double             A[dim][dim];
-              for (int i = 0; i < dim; ++i)
-                for (int j = 0; j < dim; ++j)
-                  A[i][j] = gradient[i][j][lane];
-              const auto one =
-                law.template evaluate<with_tangent>(points.stress_state[slot],
-                                                    A,
-                                                    points.template history_of<Material>(slot),
-                                                    law.strain_of_group(slot));
-              result.valid.lanes[lane] = one.valid ? -1 : 0;
-              for (int i = 0; i < dim; ++i)
-                for (int j = 0; j < dim; ++j)
-                  {
-                    result.stress[i][j].set(lane, one.stress[i][j]);
-                    if constexpr (with_tangent)
-                      for (int k = 0; k < dim; ++k)
-                        for (int l = 0; l < dim; ++l)
-                          result.tangent[i][j][k][l].set(lane, one.tangent[i][j][k][l]);
-                  }
-            }
-        }
-    }
-
     template <int dim, bool with_tangent, class Law>
     void
     evaluate_law(const BatchContext<dim> &context,
@@ -124,8 +77,16 @@ namespace kedge
                  const Pack (&gradient)[dim][dim],
                  ForceStress<dim, Pack> &result)
     {
-      const Law law{context, *std::get_if<typename Law::Law>(&material)};
-      evaluate_pack<dim, with_tangent>(law, context.points, slots, gradient, result);
+      using MaterialLaw             = typename Law::Law;
+      const StepPoints<dim> &points = context.patch.points;
+      const Law law{context, InPacks<MaterialLaw>(*std::get_if<MaterialLaw>(&material))};
+      Pack      strain = 0.;
+      for (unsigned int lane = 0; lane < pack_width; ++lane)
+        strain.set(lane, law.strain_of_group(slots.slot(lane)));
+      result = law.template evaluate<with_tangent>(pack_of_states(points, slots),
+                                                   gradient,
+                                                   pack_of_histories<MaterialLaw>(points, slots),
+                                                   strain);
     }
 
     template <int dim, template <int, StressRule, class> class Kind, class MaterialLaw>

@@ -74,7 +74,7 @@ namespace kedge
   {
     std::vector<double>       sums(std::size_t(patch.nodes.n_local()) * dim, 0.);
     const std::vector<double> ones(patch.points.size(), 1.);
-    add_to_nodes(patch.points, patch.window(), patch.nodes, ones, forces_at(t), sums);
+    add_to_nodes(patch, ones, forces_at(t), sums);
     patch.ties.restrict_sums(sums);
     patch.nodes.add_to_owners(sums, dim);
     return sums;

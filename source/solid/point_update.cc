@@ -1,4 +1,5 @@
 #include <kedge/fields/point_packs.h>
+#include <kedge/materials/lane_by_lane.h>
 #include <kedge/solid/group_dilatation.h>
 #include <kedge/solid/point_update.h>
 #include <kedge/stress/mean_dilatation.h>
@@ -49,56 +50,34 @@ namespace kedge
                  const std::vector<dealii::Tensor<2, dim>> &gradients,
                  std::vector<PointUpdate<dim>>             &updates)
     {
-      const bool grouped      = points.is_grouped(batch);
-      const auto increment_of = [&](const unsigned int slot) {
-        return grouped ? dilatation.increment[points.group[slot]] : 0.;
-      };
-      for (unsigned int begin = batch.begin; begin < batch.end;)
+      const InPacks<Material> law(material);
+      const bool              grouped = points.is_grouped(batch);
+      Pack                    A[dim][dim], increment = 0.;
+      PointUpdate<dim, Pack>  update;
+      for (unsigned int begin = batch.begin; begin < batch.end; begin += pack_width)
         {
           const PackOfSlots slots(begin, batch.end);
-          unsigned int      failed = PointStatus::none;
-          if constexpr (Material::takes_packs)
+          for (unsigned int lane = 0; lane < pack_width; ++lane)
             {
-              Pack                   A[dim][dim] = {}, increment = 0.;
-              PointUpdate<dim, Pack> update;
-              for (unsigned int lane = 0; lane < pack_width; ++lane)
-                {
-                  const unsigned int slot = slots.slot(lane);
-                  increment.set(lane, increment_of(slot));
-                  for (int i = 0; i < dim; ++i)
-                    for (int j = 0; j < dim; ++j)
-                      A[i][j].set(lane, gradients[slot][i][j]);
-                }
-              const auto valid = update_one<dim>(material,
-                                                 pack_of_states(points, slots),
-                                                 pack_of_histories<Material>(points, slots),
-                                                 A,
-                                                 grouped,
-                                                 increment,
-                                                 update);
-              failed           = slots.first_failure(valid, PointStatus::none);
-              for (unsigned int lane = 0; lane < slots.count; ++lane)
-                get_lane(lane, update, updates[slots.slot(lane)]);
+              const unsigned int slot = slots.slot(lane);
+              if (grouped)
+                increment.set(lane, dilatation.increment[points.group[slot]]);
+              for (int i = 0; i < dim; ++i)
+                for (int j = 0; j < dim; ++j)
+                  A[i][j].set(lane, gradients[slot][i][j]);
             }
-          else
-            for (unsigned int slot = begin; slot < begin + slots.count; ++slot)
-              {
-                double A[dim][dim];
-                for (int i = 0; i < dim; ++i)
-                  for (int j = 0; j < dim; ++j)
-                    A[i][j] = gradients[slot][i][j];
-                if (!update_one<dim>(material,
-                                     points.stress_state[slot],
-                                     points.template history_of<Material>(slot),
-                                     A,
-                                     grouped,
-                                     increment_of(slot),
-                                     updates[slot]))
-                  return slot;
-              }
+          const auto         valid  = update_one<dim>(law,
+                                             pack_of_states(points, slots),
+                                             pack_of_histories<Material>(points, slots),
+                                             A,
+                                             grouped,
+                                             increment,
+                                             update);
+          const unsigned int failed = slots.first_failure(valid, PointStatus::none);
           if (failed != PointStatus::none)
             return failed;
-          begin += slots.count;
+          for (unsigned int lane = 0; lane < slots.count; ++lane)
+            get_lane(lane, update, updates[slots.slot(lane)]);
         }
       return PointStatus::none;
     }
@@ -134,25 +113,22 @@ namespace kedge
   template <int dim>
   unsigned int
   evaluate_point_updates(const std::vector<Material>   &materials,
-                         const StepPoints<dim>         &points,
-                         const LatticeWindow<dim>      &window,
-                         const ActiveNodes<dim>        &nodes,
+                         const Patch<dim>              &patch,
                          const std::vector<double>     &displacement,
                          std::vector<PointUpdate<dim>> &updates)
   {
-    updates.resize(points.size());
+    updates.resize(patch.points.size());
     GroupDilatation   dilatation;
-    const PointStatus groups =
-      evaluate_group_dilatation(points, window, nodes, displacement, 1., dilatation);
+    const PointStatus groups = evaluate_group_dilatation(patch, displacement, 1., dilatation);
     if (!groups.ok())
       return groups.failed_slot;
     std::vector<dealii::Tensor<2, dim>> gradients;
-    gradients_at_points(points, window, nodes, displacement, gradients);
-    for (const auto &batch : points.batches)
+    gradients_at_points(patch, displacement, gradients);
+    for (const auto &batch : patch.points.batches)
       {
         const unsigned int failed = std::visit(
           [&](const auto &material) {
-            return update_batch(material, points, batch, dilatation, gradients, updates);
+            return update_batch(material, patch.points, batch, dilatation, gradients, updates);
           },
           materials[batch.body]);
         if (failed != PointStatus::none)
@@ -218,9 +194,7 @@ namespace kedge
 
 #define KEDGE_INSTANTIATE(dim)                                                                          \
   template unsigned int                        evaluate_point_updates(const std::vector<Material> &,    \
-                                                                      const StepPoints<dim> &,          \
-                                                                      const LatticeWindow<dim> &,       \
-                                                                      const ActiveNodes<dim> &,         \
+                                                                      const Patch<dim> &,               \
                                                                       const std::vector<double> &,      \
                                                                       std::vector<PointUpdate<dim>> &); \
   template void                                apply_point_update(const PointUpdate<dim> &,             \

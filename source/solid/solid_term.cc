@@ -33,11 +33,8 @@ namespace kedge
   Answer
   SolidTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
   {
-    const PointStatus status = internal_force.add_force(patch.points,
-                                                        patch.window(),
-                                                        patch.nodes,
-                                                        trial.displacement(field),
-                                                        residual.partial(field));
+    const PointStatus status =
+      internal_force.add_force(patch, trial.displacement(field), residual.partial(field));
     return status.ok() ? Answer()
                        : Answer::failure(patch.describe_point(status.failed_slot) +
                                          " has det F <= 0 or no finite stress");
@@ -50,11 +47,7 @@ namespace kedge
   SolidTerm<dim>::add_residual_at_rest(const double, Residual<dim> &residual)
   {
     const std::vector<double> at_rest(std::size_t(patch.nodes.n_local()) * dim, 0.);
-    force_at_rest.add_force(patch.points,
-                            patch.window(),
-                            patch.nodes,
-                            at_rest,
-                            residual.partial(field));
+    force_at_rest.add_force(patch, at_rest, residual.partial(field));
   }
 
 
@@ -63,11 +56,7 @@ namespace kedge
   void
   SolidTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    internal_force.add_stiffness(patch.points,
-                                 patch.window(),
-                                 patch.nodes,
-                                 trial.displacement(field),
-                                 tangent.lattice(field));
+    internal_force.add_stiffness(patch, trial.displacement(field), tangent.lattice(field));
   }
 
   template class SolidTerm<2>;

@@ -1,4 +1,5 @@
 #include "distributed_matrix.h"
+#include "scaling.h"
 
 #include <kedge/base/pack.h>
 
@@ -194,14 +195,9 @@ namespace kedge
   DistributedMatrix::set_values(const SparseSystem &system)
   {
     this->system = &system;
-    for (unsigned int i = 0; i < n_rows(); ++i)
-      {
-        scale[i]      = 1.;
-        const int row = static_cast<int>(system.first_row) + static_cast<int>(i);
-        for (std::int64_t k = system.row_start[i]; k < system.row_start[i + 1]; ++k)
-          if (system.column[k] == row && system.value[k] != 0.)
-            scale[i] = 1. / std::sqrt(std::abs(system.value[k]));
-      }
+    scale_by_diagonal(n_rows(), system.row_start, columns(), system.value, scale);
+    exchange(scale.data());
+    scale_rows_without_diagonal(n_rows(), system.row_start, columns(), system.value, scale);
     exchange(scale.data());
   }
 

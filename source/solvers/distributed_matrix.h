@@ -6,7 +6,7 @@
 namespace kedge
 {
   /**
-   * The matrix S A S of Krylov methods, S = 1/sqrt|diagonal of A|. Refers to
+   * The matrix S A S of Krylov methods; S see scale_by_diagonal(). Refers to
    * the values of a SparseSystem, which must outlive it. On several ranks each
    * multiplies its rows, after it has got the parts of the vector that it
    * lacks from their owners. Columns come in runs, five nodes of three components

@@ -1,4 +1,5 @@
 #include "gathered_backend.h"
+#include "scaling.h"
 
 #include <numeric>
 
@@ -100,10 +101,12 @@ namespace kedge
     if (rank == 0)
       {
         scaling.assign(matrix.n, 1.);
-        for (int i = 0; i < matrix.n; ++i)
-          for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
-            if (matrix.column[k] == i && matrix.value[k] != 0.)
-              scaling[i] = 1. / std::sqrt(std::abs(matrix.value[k]));
+        scale_by_diagonal(matrix.n, matrix.row_start, matrix.column.data(), matrix.value, scaling);
+        scale_rows_without_diagonal(matrix.n,
+                                    matrix.row_start,
+                                    matrix.column.data(),
+                                    matrix.value,
+                                    scaling);
         for (int i = 0; i < matrix.n; ++i)
           for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
             {

@@ -6,8 +6,8 @@
 namespace kedge
 {
   /**
-   * Base of the direct methods: brings the whole system, scaled by
-   * 1/sqrt|diagonal| from both sides, to rank 0, where the derived class
+   * Base of the direct methods: brings the whole system, scaled from both
+   * sides (see scale_by_diagonal()), to rank 0, where the derived class
    * solves it, and deals the solution out again.
    */
   class GatheredBackend : public LinearSolver::Backend
@@ -24,7 +24,7 @@ namespace kedge
 
   protected:
     /**
-     * A pivot of the scaled matrix (unit diagonal) below this is taken for
+     * A pivot of the scaled matrix (diagonal 1, or 0 for multipliers) below this is taken for
      * zero: the solution would have no correct digit.
      */
     static constexpr double smallest_pivot = 1e-15;

@@ -113,7 +113,7 @@ namespace kedge
 
     const double exact = std::min(banded, umfpack);
     substitute         = banded < umfpack ? LinearSolverKind::banded : LinearSolverKind::direct;
-    if (exact <= usual_iterations * iteration)
+    if (traits.multipliers || exact <= usual_iterations * iteration)
       return substitute;
     if (exact > longest_substitute)
       substitute = LinearSolverKind::automatic;
@@ -173,6 +173,10 @@ namespace kedge
     direct.reset();
     const bool analyse = new_pattern;
     choose(system);
+    if (traits.multipliers && chosen != LinearSolverKind::banded &&
+        chosen != LinearSolverKind::direct)
+      return LinearStatus::failure("the iterative method " + method() +
+                                   " cannot solve for multipliers; take a direct one");
     if (!backend)
       backend = make_backend(chosen);
     new_pattern = false;

@@ -72,13 +72,12 @@ namespace kedge
     /** Positions of the local nodes, moved by @p u. */
     template <int dim>
     std::vector<dealii::Tensor<1, dim>>
-    positions(const BackgroundGrid<dim> &grid,
-              const ActiveNodes<dim>    &nodes,
-              const std::vector<double> &u)
+    positions(const Patch<dim> &patch, const std::vector<double> &u)
     {
-      std::vector<dealii::Tensor<1, dim>> x(nodes.n_local());
+      std::vector<dealii::Tensor<1, dim>> x(patch.nodes.n_local());
       for (unsigned int i = 0; i < x.size(); ++i)
-        x[i] = grid.lattice().node_position(grid.window().node_index(nodes.window_node(i))) +
+        x[i] = patch.grid().lattice().node_position(
+                 patch.window().node_index(patch.nodes.window_node(i))) +
                at_node<dim>(u, i);
       return x;
     }
@@ -86,16 +85,15 @@ namespace kedge
     /** This rank's share of the grid's totals: its M~ v is a partial sum, the rest is whole. */
     template <int dim>
     MotionTotals<dim>
-    grid_totals(const BackgroundGrid<dim>                 &grid,
-                const ActiveNodes<dim>                    &nodes,
+    grid_totals(const Patch<dim>                          &patch,
                 const NodeMatrix<dim>                     &mass,
                 const std::vector<dealii::Tensor<1, dim>> &x,
                 const std::vector<double>                 &v)
     {
       std::vector<double> momentum(v.size());
-      multiply(mass, grid.window(), nodes, dim, v, momentum);
+      multiply(mass, patch, dim, v, momentum);
       MotionTotals<dim> totals;
-      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
         add<dim>(totals, x[i], at_node<dim>(momentum, i), at_node<dim>(v, i));
       return totals;
     }
@@ -119,19 +117,17 @@ namespace kedge
      */
     template <int dim>
     MotionTotals<dim>
-    lumping_totals(const BackgroundGrid<dim>                 &grid,
-                   const ActiveNodes<dim>                    &nodes,
-                   const StepPoints<dim>                     &points,
+    lumping_totals(const Patch<dim>                          &patch,
                    const std::vector<double>                 &lumped_mass,
                    const std::vector<dealii::Tensor<1, dim>> &x,
                    const std::vector<double>                 &v)
     {
       std::vector<dealii::Tensor<1, dim>> v_at_points;
-      interpolate_to_points(points, grid.window(), nodes, v, v_at_points);
+      interpolate_to_points(patch, v, v_at_points);
       std::vector<double> momentum(v.size(), 0.);
-      add_to_nodes(points, grid.window(), nodes, points.mass, v_at_points, momentum);
+      add_to_nodes(patch, patch.points.mass, v_at_points, momentum);
       MotionTotals<dim> totals;
-      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
         {
           const auto v_i = at_node<dim>(v, i);
           add<dim>(totals, x[i], lumped_mass[i] * v_i - at_node<dim>(momentum, i), v_i);
@@ -142,16 +138,14 @@ namespace kedge
     /** 1/2 sum m |v'|^2 over this rank's points. */
     template <int dim>
     double
-    filtered_energy(const BackgroundGrid<dim> &grid,
-                    const ActiveNodes<dim>    &nodes,
-                    const StepPoints<dim>     &points,
-                    const std::vector<double> &v_n)
+    filtered_energy(const Patch<dim> &patch, const std::vector<double> &v_n)
     {
       std::vector<dealii::Tensor<1, dim>> v_at_points;
-      interpolate_to_points(points, grid.window(), nodes, v_n, v_at_points);
+      interpolate_to_points(patch, v_n, v_at_points);
       double energy = 0.;
-      for (unsigned int p = 0; p < points.size(); ++p)
-        energy += 0.5 * points.mass[p] * (points.velocity[p] - v_at_points[p]).norm_square();
+      for (unsigned int p = 0; p < patch.points.size(); ++p)
+        energy +=
+          0.5 * patch.points.mass[p] * (patch.points.velocity[p] - v_at_points[p]).norm_square();
       return energy;
     }
   } // namespace
@@ -191,9 +185,7 @@ namespace kedge
 
   template <int dim>
   TransferAudit<dim>
-  audit_transfer(const BackgroundGrid<dim>                 &grid,
-                 const ActiveNodes<dim>                    &nodes,
-                 const StepPoints<dim>                     &points,
+  audit_transfer(const Patch<dim>                          &patch,
                  const std::vector<dealii::Tensor<1, dim>> &new_velocities,
                  const NodeMatrix<dim>                     &mass,
                  const double                               lumping,
@@ -202,34 +194,34 @@ namespace kedge
                  const std::vector<double>                 &v_np1,
                  const std::vector<double>                 &u)
   {
-    const auto x_n   = positions(grid, nodes, std::vector<double>(u.size(), 0.));
-    const auto x_np1 = positions(grid, nodes, u);
+    const auto x_n   = positions(patch, std::vector<double>(u.size(), 0.));
+    const auto x_np1 = positions(patch, u);
 
-    std::vector<dealii::Tensor<1, dim>> points_x_n(points.size()), points_x_np1;
-    interpolate_to_points(points, grid.window(), nodes, u, points_x_np1);
-    for (unsigned int p = 0; p < points.size(); ++p)
+    std::vector<dealii::Tensor<1, dim>> points_x_n(patch.points.size()), points_x_np1;
+    interpolate_to_points(patch, u, points_x_np1);
+    for (unsigned int p = 0; p < patch.points.size(); ++p)
       {
-        points_x_n[p] = points.location[p];
+        points_x_n[p] = patch.points.location[p];
         points_x_np1[p] += points_x_n[p];
       }
 
     TransferAudit<dim> audit;
-    audit.points_n   = point_totals<dim>(points.mass, points_x_n, points.velocity);
-    audit.grid_n     = grid_totals(grid, nodes, mass, x_n, v_n);
-    audit.points_np1 = point_totals<dim>(points.mass, points_x_np1, new_velocities);
-    audit.grid_np1   = grid_totals(grid, nodes, mass, x_np1, v_np1);
+    audit.points_n   = point_totals<dim>(patch.points.mass, points_x_n, patch.points.velocity);
+    audit.grid_n     = grid_totals(patch, mass, x_n, v_n);
+    audit.points_np1 = point_totals<dim>(patch.points.mass, points_x_np1, new_velocities);
+    audit.grid_np1   = grid_totals(patch, mass, x_np1, v_np1);
 
-    std::vector<double> lumped_mass(nodes.n_local(), 0.);
-    add_scalars_to_nodes(points, grid.window(), nodes, points.mass, 1, lumped_mass);
+    std::vector<double> lumped_mass(patch.nodes.n_local(), 0.);
+    add_scalars_to_nodes(patch, patch.points.mass, 1, lumped_mass);
     std::vector<double> change = v_np1;
     if (update == VelocityUpdate::flip)
       for (std::size_t i = 0; i < change.size(); ++i)
         change[i] -= v_n[i];
-    MotionTotals<dim> at_n   = lumping_totals(grid, nodes, points, lumped_mass, x_n, v_n);
-    MotionTotals<dim> at_np1 = lumping_totals(grid, nodes, points, lumped_mass, x_np1, change);
-    audit.expected_p2g.kinetic_energy = filtered_energy(grid, nodes, points, v_n);
+    MotionTotals<dim> at_n            = lumping_totals(patch, lumped_mass, x_n, v_n);
+    MotionTotals<dim> at_np1          = lumping_totals(patch, lumped_mass, x_np1, change);
+    audit.expected_p2g.kinetic_energy = filtered_energy(patch, v_n);
 
-    sum_up<dim>(nodes.communicator(),
+    sum_up<dim>(patch.nodes.communicator(),
                 {&audit.points_n,
                  &audit.grid_n,
                  &audit.points_np1,
@@ -249,9 +241,7 @@ namespace kedge
 #define KEDGE_INSTANTIATE(dim)                                                                 \
   template TransferAudit<dim> &TransferAudit<dim>::operator+=(const TransferAudit<dim> &);     \
   template MotionTotals<dim>  operator-(const MotionTotals<dim> &, const MotionTotals<dim> &); \
-  template TransferAudit<dim> audit_transfer(const BackgroundGrid<dim> &,                      \
-                                             const ActiveNodes<dim> &,                         \
-                                             const StepPoints<dim> &,                          \
+  template TransferAudit<dim> audit_transfer(const Patch<dim> &,                               \
                                              const std::vector<dealii::Tensor<1, dim>> &,      \
                                              const NodeMatrix<dim> &,                          \
                                              const double,                                     \

@@ -28,20 +28,17 @@ namespace kedge
     /** Cell contents, n_contents per cell of the window (collective). */
     template <int dim>
     std::vector<double>
-    cell_contents(const BackgroundGrid<dim> &grid,
-                  const StepPoints<dim>     &points,
-                  const std::vector<double> &modulus_of_body)
+    cell_contents(const Patch<dim> &patch, const std::vector<double> &modulus_of_body)
     {
-      const auto         &window = grid.window();
-      std::vector<double> contents(std::size_t(window.n_cells_total()) * n_contents, 0.);
-      for (const auto &batch : points.batches)
+      std::vector<double> contents(std::size_t(patch.window().n_cells_total()) * n_contents, 0.);
+      for (const auto &batch : patch.points.batches)
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           {
-            const Stencil<dim>                    &s     = points.stencil[slot];
-            const LatticeIndex<dim>                first = window.node_index(s.first_node);
+            const Stencil<dim>                    &s     = patch.points.stencil[slot];
+            const LatticeIndex<dim>                first = patch.window().node_index(s.first_node);
             std::array<std::array<double, 2>, dim> parts;
             for (int d = 0; d < dim; ++d)
-              parts[d] = cell_parts<dim>(s, grid.lattice().h, d);
+              parts[d] = cell_parts<dim>(s, patch.grid().lattice().h, d);
             for (unsigned int v = 0; v < (1u << dim); ++v)
               {
                 LatticeIndex<dim> cell = first;
@@ -53,21 +50,22 @@ namespace kedge
                   }
                 if (part == 0.)
                   continue;
-                const double volume = part * points.volume[slot];
-                double *content     = &contents[std::size_t(window.cell_number(cell)) * n_contents];
-                content[present_volume] += volume * points.determinant[slot];
+                const double volume = part * patch.points.volume[slot];
+                double      *content =
+                  &contents[std::size_t(patch.window().cell_number(cell)) * n_contents];
+                content[present_volume] += volume * patch.points.determinant[slot];
                 content[reference_volume] += volume;
-                content[mass_sum] += part * points.mass[slot];
+                content[mass_sum] += part * patch.points.mass[slot];
                 content[modulus_times_volume] += volume * modulus_of_body[batch.body];
               }
           }
-      if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      if (dealii::Utilities::MPI::n_mpi_processes(patch.grid().communicator()) > 1)
         MPI_Allreduce(MPI_IN_PLACE,
                       contents.data(),
                       static_cast<int>(contents.size()),
                       MPI_DOUBLE,
                       MPI_SUM,
-                      grid.communicator());
+                      patch.grid().communicator());
       return contents;
     }
 
@@ -128,34 +126,32 @@ namespace kedge
 
   template <int dim>
   void
-  GhostPenalty<dim>::find(const BackgroundGrid<dim>  &grid,
-                          const StepPoints<dim>      &points,
+  GhostPenalty<dim>::find(const Patch<dim>           &patch,
                           const std::vector<double>  &modulus_of_body,
                           std::vector<unsigned char> &reached)
   {
     faces_.clear();
-    const auto               &window   = grid.window();
-    const std::vector<double> contents = cell_contents(grid, points, modulus_of_body);
+    const std::vector<double> contents = cell_contents(patch, modulus_of_body);
     double                    full     = full_cell;
     for (int d = 0; d < dim; ++d)
-      full *= grid.lattice().h[d];
-    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
-    for (unsigned int c = 0; c < window.n_cells_total(); ++c)
+      full *= patch.grid().lattice().h[d];
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(patch.grid().communicator());
+    for (unsigned int c = 0; c < patch.window().n_cells_total(); ++c)
       {
         const double *lower = &contents[std::size_t(c) * n_contents];
         if (lower[present_volume] == 0.)
           continue;
-        const LatticeIndex<dim> cell = window.cell_index(c);
-        if (grid.cell_owner(cell) != rank)
+        const LatticeIndex<dim> cell = patch.window().cell_index(c);
+        if (patch.grid().cell_owner(cell) != rank)
           continue;
         for (unsigned int d = 0; d < dim; ++d)
           {
             LatticeIndex<dim> neighbour = cell;
             ++neighbour[d];
-            if (!window.contains_cell(neighbour))
+            if (!patch.window().contains_cell(neighbour))
               continue;
             const double *upper =
-              &contents[std::size_t(window.cell_number(neighbour)) * n_contents];
+              &contents[std::size_t(patch.window().cell_number(neighbour)) * n_contents];
             if (upper[present_volume] == 0. ||
                 std::min(lower[present_volume], upper[present_volume]) >= full)
               continue;
@@ -166,7 +162,7 @@ namespace kedge
                (lower[mass_sum] + upper[mass_sum]) / volume,
                (lower[modulus_times_volume] + upper[modulus_times_volume]) / volume});
             for (const auto &offset : face_nodes<dim>(d))
-              reached[window.node_number(shifted<dim>(cell, offset))] = 1;
+              reached[patch.window().node_number(shifted<dim>(cell, offset))] = 1;
           }
       }
   }
@@ -175,28 +171,27 @@ namespace kedge
 
   template <int dim>
   void
-  GhostPenalty<dim>::add(const BackgroundGrid<dim>                      &grid,
-                         const ActiveNodes<dim>                         &nodes,
+  GhostPenalty<dim>::add(const Patch<dim>                               &patch,
                          const std::function<double(const GhostFace &)> &coefficient,
                          NodeMatrix<dim>                                &matrix) const
   {
-    const auto                                     &window = grid.window();
     std::array<std::vector<double>, dim>            entries;
     std::array<std::vector<LatticeIndex<dim>>, dim> offsets;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        entries[d] = ghost_face_matrix<dim>(grid.lattice().h, d);
+        entries[d] = ghost_face_matrix<dim>(patch.grid().lattice().h, d);
         offsets[d] = face_nodes<dim>(d);
       }
     for (const GhostFace &face : faces_)
       {
         const auto  &face_offsets = offsets[face.direction];
-        const auto   cell         = window.cell_index(face.lower_cell);
+        const auto   cell         = patch.window().cell_index(face.lower_cell);
         const double scale        = coefficient(face);
         auto         entry        = entries[face.direction].begin();
         for (const auto &A : face_offsets)
           {
-            double *row = matrix.row(nodes.local(window.node_number(shifted<dim>(cell, A))), 0);
+            double *row =
+              matrix.row(patch.nodes.local(patch.window().node_number(shifted<dim>(cell, A))), 0);
             for (const auto &B : face_offsets)
               {
                 LatticeIndex<dim> offset;
@@ -212,14 +207,12 @@ namespace kedge
 
   template <int dim>
   void
-  GhostPenalty<dim>::add_mass(const BackgroundGrid<dim> &grid,
-                              const ActiveNodes<dim>    &nodes,
-                              const double               factor,
-                              NodeMatrix<dim>           &mass) const
+  GhostPenalty<dim>::add_mass(const Patch<dim> &patch,
+                              const double      factor,
+                              NodeMatrix<dim>  &mass) const
   {
     add(
-      grid,
-      nodes,
+      patch,
       [&](const GhostFace &face) {
         return factor * face.density;
       },
@@ -230,15 +223,13 @@ namespace kedge
 
   template <int dim>
   void
-  GhostPenalty<dim>::add_stiffness(const BackgroundGrid<dim> &grid,
-                                   const ActiveNodes<dim>    &nodes,
-                                   const double               factor,
-                                   NodeMatrix<dim>           &stiffness) const
+  GhostPenalty<dim>::add_stiffness(const Patch<dim> &patch,
+                                   const double      factor,
+                                   NodeMatrix<dim>  &stiffness) const
   {
-    const auto &h = grid.lattice().h;
+    const auto &h = patch.grid().lattice().h;
     add(
-      grid,
-      nodes,
+      patch,
       [&](const GhostFace &face) {
         return factor * face.modulus / (h[face.direction] * h[face.direction]);
       },
@@ -249,15 +240,13 @@ namespace kedge
 
   template <int dim>
   void
-  GhostPenalty<dim>::add_gradient_penalty(const BackgroundGrid<dim> &grid,
-                                          const ActiveNodes<dim>    &nodes,
-                                          const double               factor,
-                                          NodeMatrix<dim>           &matrix) const
+  GhostPenalty<dim>::add_gradient_penalty(const Patch<dim> &patch,
+                                          const double      factor,
+                                          NodeMatrix<dim>  &matrix) const
   {
-    const auto &h = grid.lattice().h;
+    const auto &h = patch.grid().lattice().h;
     add(
-      grid,
-      nodes,
+      patch,
       [&](const GhostFace &face) {
         return factor / (h[face.direction] * h[face.direction]);
       },
@@ -268,14 +257,12 @@ namespace kedge
 
   template <int dim>
   void
-  GhostPenalty<dim>::add_value_penalty(const BackgroundGrid<dim> &grid,
-                                       const ActiveNodes<dim>    &nodes,
-                                       const double               factor,
-                                       NodeMatrix<dim>           &matrix) const
+  GhostPenalty<dim>::add_value_penalty(const Patch<dim> &patch,
+                                       const double      factor,
+                                       NodeMatrix<dim>  &matrix) const
   {
     add(
-      grid,
-      nodes,
+      patch,
       [&](const GhostFace &) {
         return factor;
       },
@@ -286,28 +273,28 @@ namespace kedge
 
   template <int dim>
   double
-  lumped_mass_ratio(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &mass)
+  lumped_mass_ratio(const Patch<dim> &patch, const NodeMatrix<dim> &mass)
   {
-    std::vector<double> lumped(nodes.n_local(), 0.);
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+    std::vector<double> lumped(patch.nodes.n_local(), 0.);
+    for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
       for (unsigned int s = 0; s < mass.n_slots(); ++s)
         lumped[i] += mass.row(i, 0)[s];
-    nodes.add_to_owners(lumped, 1);
+    patch.nodes.add_to_owners(lumped, 1);
     double smallest = std::numeric_limits<double>::max(), largest = 0.;
-    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+    for (unsigned int i = 0; i < patch.nodes.n_owned(); ++i)
       {
         smallest = std::min(smallest, lumped[i]);
         largest  = std::max(largest, lumped[i]);
       }
-    smallest = dealii::Utilities::MPI::min(smallest, nodes.communicator());
-    largest  = dealii::Utilities::MPI::max(largest, nodes.communicator());
+    smallest = dealii::Utilities::MPI::min(smallest, patch.nodes.communicator());
+    largest  = dealii::Utilities::MPI::max(largest, patch.nodes.communicator());
     return smallest / largest;
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                               \
-  template std::vector<double> ghost_face_matrix<dim>(const dealii::Tensor<1, dim> &,        \
-                                                      const unsigned int);                   \
-  template double lumped_mass_ratio<dim>(const ActiveNodes<dim> &, const NodeMatrix<dim> &); \
+#define KEDGE_INSTANTIATE(dim)                                                                      \
+  template std::vector<double> ghost_face_matrix<dim>(const dealii::Tensor<1, dim> &,               \
+                                                      const unsigned int);                          \
+  template double              lumped_mass_ratio<dim>(const Patch<dim> &, const NodeMatrix<dim> &); \
   template class GhostPenalty<dim>;
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

@@ -1,4 +1,5 @@
 #include <kedge/transfer/motion_term.h>
+#include <kedge/transfer/node_sums.h>
 
 #include <sstream>
 
@@ -46,11 +47,7 @@ namespace kedge
   Answer
   MotionTerm<dim>::finish(const Trial<dim> &trial)
   {
-    interpolate_to_points(patch.points,
-                          patch.window(),
-                          patch.nodes,
-                          trial.displacement(field),
-                          point_displacements);
+    interpolate_to_points(patch, trial.displacement(field), point_displacements);
     for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
       {
         const auto x = patch.points.location[slot] + point_displacements[slot];

@@ -1,4 +1,5 @@
 #include <kedge/transfer/motion_transfer.h>
+#include <kedge/transfer/node_sums.h>
 
 namespace kedge
 {
@@ -23,7 +24,7 @@ namespace kedge
   {
     if (patch.new_nodes())
       effective_mass.reinit(patch.nodes.n_local(), 1, radius);
-    assemble_mass(patch.points, patch.window(), patch.nodes, effective_mass);
+    assemble_mass(patch, effective_mass);
     blend_mass(parameters.lumping, effective_mass, patch.nodes.n_local());
     has_own_mass = static_cast<bool>(add);
     if (has_own_mass)
@@ -31,12 +32,7 @@ namespace kedge
         mapped_mass = effective_mass;
         add(mapped_mass);
       }
-    mapping.reinit(patch.grid(),
-                   patch.nodes,
-                   patch.conditions,
-                   patch.ties,
-                   mapping_mass(),
-                   patch.new_pattern());
+    mapping.reinit(patch, mapping_mass());
   }
 
 
@@ -47,10 +43,10 @@ namespace kedge
                                std::vector<double>                       &at_nodes)
   {
     std::vector<double> momentum(at_nodes.size(), 0.);
-    add_to_nodes(patch.points, patch.window(), patch.nodes, patch.points.mass, at_points, momentum);
+    add_to_nodes(patch, patch.points.mass, at_points, momentum);
     patch.ties.restrict_sums(momentum);
     patch.nodes.add_to_owners(momentum, dim);
-    return mapping.solve(patch.grid(), patch.nodes, patch.ties, mapping_mass(), momentum, at_nodes);
+    return mapping.solve(momentum, at_nodes);
   }
 
 
@@ -82,26 +78,16 @@ namespace kedge
     std::vector<double>       change(v_end.size());
     for (std::size_t i = 0; i < v_end.size(); ++i)
       change[i] = v_end[i] - motion.velocity_n[i];
-    interpolate_to_points(patch.points,
-                          patch.window(),
-                          patch.nodes,
-                          flip ? change : v_end,
-                          velocities);
+    interpolate_to_points(patch, flip ? change : v_end, velocities);
     if (scheme.carries_acceleration)
-      interpolate_to_points(patch.points,
-                            patch.window(),
-                            patch.nodes,
-                            trial.end_acceleration(scheme, field),
-                            accelerations);
+      interpolate_to_points(patch, trial.end_acceleration(scheme, field), accelerations);
     if (!parameters.audit)
       return;
     auto new_velocities = velocities;
     if (flip)
       for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
         new_velocities[slot] += patch.points.velocity[slot];
-    audit_ = audit_transfer(patch.grid(),
-                            patch.nodes,
-                            patch.points,
+    audit_ = audit_transfer(patch,
                             new_velocities,
                             effective_mass,
                             parameters.lumping,
@@ -132,10 +118,9 @@ namespace kedge
   MotionTransfer<dim>::accelerate(const std::vector<double> &force, MaterialPoints<dim> &cloud)
   {
     std::vector<double> at_nodes(std::size_t(patch.nodes.n_local()) * dim, 0.);
-    const LinearStatus  status =
-      mapping.solve(patch.grid(), patch.nodes, patch.ties, mapping_mass(), force, at_nodes);
+    const LinearStatus  status = mapping.solve(force, at_nodes);
     AssertThrow(status.success, dealii::ExcMessage("mass matrix: " + status.cause));
-    interpolate_to_points(patch.points, patch.window(), patch.nodes, at_nodes, accelerations);
+    interpolate_to_points(patch, at_nodes, accelerations);
     cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
       const unsigned int slot = patch.points.slot_of[number];
       if (slot != StepPoints<dim>::no_slot)

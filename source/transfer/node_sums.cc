@@ -21,9 +21,7 @@ namespace kedge
     template <int dim, typename Visit>
     struct ForEachPoint
     {
-      const StepPoints<dim>                 &points;
-      const LatticeWindow<dim>              &window;
-      const ActiveNodes<dim>                &nodes;
+      const Patch<dim>                      &patch;
       const Visit                           &visit;
       const typename StepPoints<dim>::Batch *batch;
 
@@ -31,13 +29,13 @@ namespace kedge
       void
       run() const
       {
-        const auto offsets = node_offsets<dim, pattern>(window.node_strides());
+        const auto offsets = node_offsets<dim, pattern>(patch.window().node_strides());
         std::array<int, stencil_size<dim>(pattern)> local{};
         for (unsigned int slot = batch->begin; slot < batch->end; ++slot)
           {
-            const Stencil<dim> &s = points.stencil[slot];
-            if (slot == batch->begin || s.first_node != points.stencil[slot - 1].first_node)
-              local = local_nodes<dim, pattern>(nodes, offsets, s.first_node);
+            const Stencil<dim> &s = patch.points.stencil[slot];
+            if (slot == batch->begin || s.first_node != patch.points.stencil[slot - 1].first_node)
+              local = local_nodes<dim, pattern>(patch.nodes, offsets, s.first_node);
             visit(slot, local, expand<dim, pattern>(s));
           }
       }
@@ -45,14 +43,10 @@ namespace kedge
 
     template <int dim, typename Visit>
     void
-    for_each_point(const StepPoints<dim>    &points,
-                   const LatticeWindow<dim> &window,
-                   const ActiveNodes<dim>   &nodes,
-                   const Visit              &visit)
+    for_each_point(const Patch<dim> &patch, const Visit &visit)
     {
-      for (const auto &batch : points.batches)
-        dispatch_pattern<dim>(batch.pattern,
-                              ForEachPoint<dim, Visit>{points, window, nodes, visit, &batch});
+      for (const auto &batch : patch.points.batches)
+        dispatch_pattern<dim>(batch.pattern, ForEachPoint<dim, Visit>{patch, visit, &batch});
     }
 
     /**
@@ -62,9 +56,7 @@ namespace kedge
     template <int dim, bool of_gradients>
     struct AssembleProducts
     {
-      const StepPoints<dim>                 &points;
-      const LatticeWindow<dim>              &window;
-      const ActiveNodes<dim>                &nodes;
+      const Patch<dim>                      &patch;
       const std::vector<double>             &weights;
       NodeMatrix<dim>                       &mass;
       const typename StepPoints<dim>::Batch *batch;
@@ -74,17 +66,17 @@ namespace kedge
       run() const
       {
         constexpr int n       = stencil_size<dim>(pattern);
-        const auto    offsets = node_offsets<dim, pattern>(window.node_strides());
+        const auto    offsets = node_offsets<dim, pattern>(patch.window().node_strides());
         const auto    rows    = row_slots<dim, pattern>(mass);
         double        sum[n][n];
         for (unsigned int slot = batch->begin; slot < batch->end;)
           {
-            const unsigned int first = points.stencil[slot].first_node;
+            const unsigned int first = patch.points.stencil[slot].first_node;
             for (auto &row : sum)
               std::fill(std::begin(row), std::end(row), 0.);
-            for (; slot < batch->end && points.stencil[slot].first_node == first; ++slot)
+            for (; slot < batch->end && patch.points.stencil[slot].first_node == first; ++slot)
               {
-                const auto basis = expand<dim, pattern>(points.stencil[slot]);
+                const auto basis = expand<dim, pattern>(patch.points.stencil[slot]);
                 const auto add   = [&](const double *factor) {
                   for (int A = 0; A < n; ++A)
                     {
@@ -99,7 +91,7 @@ namespace kedge
                 else
                   add(basis.value);
               }
-            const auto local = local_nodes<dim, pattern>(nodes, offsets, first);
+            const auto local = local_nodes<dim, pattern>(patch.nodes, offsets, first);
             for (int A = 0; A < n; ++A)
               add_to_row<dim, pattern, 1>(rows[A], sum[A], mass.row(local[A], 0));
           }
@@ -111,46 +103,35 @@ namespace kedge
 
   template <int dim>
   void
-  assemble_mass(const StepPoints<dim>    &points,
-                const LatticeWindow<dim> &window,
-                const ActiveNodes<dim>   &nodes,
-                NodeMatrix<dim>          &mass)
+  assemble_mass(const Patch<dim> &patch, NodeMatrix<dim> &mass)
   {
-    assemble_mass(points, window, nodes, points.mass, mass);
+    assemble_mass(patch, patch.points.mass, mass);
   }
 
 
 
   template <int dim>
   void
-  assemble_mass(const StepPoints<dim>     &points,
-                const LatticeWindow<dim>  &window,
-                const ActiveNodes<dim>    &nodes,
-                const std::vector<double> &weights,
-                NodeMatrix<dim>           &mass)
+  assemble_mass(const Patch<dim> &patch, const std::vector<double> &weights, NodeMatrix<dim> &mass)
   {
     mass.set_zero();
-    for (const auto &batch : points.batches)
-      dispatch_pattern<dim>(
-        batch.pattern,
-        AssembleProducts<dim, false>{points, window, nodes, weights, mass, &batch});
+    for (const auto &batch : patch.points.batches)
+      dispatch_pattern<dim>(batch.pattern,
+                            AssembleProducts<dim, false>{patch, weights, mass, &batch});
   }
 
 
 
   template <int dim>
   void
-  assemble_laplacian(const StepPoints<dim>     &points,
-                     const LatticeWindow<dim>  &window,
-                     const ActiveNodes<dim>    &nodes,
+  assemble_laplacian(const Patch<dim>          &patch,
                      const std::vector<double> &weights,
                      NodeMatrix<dim>           &laplacian)
   {
     laplacian.set_zero();
-    for (const auto &batch : points.batches)
-      dispatch_pattern<dim>(
-        batch.pattern,
-        AssembleProducts<dim, true>{points, window, nodes, weights, laplacian, &batch});
+    for (const auto &batch : patch.points.batches)
+      dispatch_pattern<dim>(batch.pattern,
+                            AssembleProducts<dim, true>{patch, weights, laplacian, &batch});
   }
 
 
@@ -180,93 +161,73 @@ namespace kedge
 
   template <int dim>
   void
-  add_to_nodes(const StepPoints<dim>                     &points,
-               const LatticeWindow<dim>                  &window,
-               const ActiveNodes<dim>                    &nodes,
+  add_to_nodes(const Patch<dim>                          &patch,
                const std::vector<double>                 &weights,
                const std::vector<dealii::Tensor<1, dim>> &values,
                std::vector<double>                       &sums)
   {
-    for_each_point(points,
-                   window,
-                   nodes,
-                   [&](const unsigned int slot, const auto &local, const auto &basis) {
-                     const dealii::Tensor<1, dim> weighted = weights[slot] * values[slot];
-                     for (std::size_t A = 0; A < local.size(); ++A)
-                       for (int d = 0; d < dim; ++d)
-                         sums[std::size_t(local[A]) * dim + d] += basis.value[A] * weighted[d];
-                   });
+    for_each_point(patch, [&](const unsigned int slot, const auto &local, const auto &basis) {
+      const dealii::Tensor<1, dim> weighted = weights[slot] * values[slot];
+      for (std::size_t A = 0; A < local.size(); ++A)
+        for (int d = 0; d < dim; ++d)
+          sums[std::size_t(local[A]) * dim + d] += basis.value[A] * weighted[d];
+    });
   }
 
 
 
   template <int dim>
   void
-  add_scalars_to_nodes(const StepPoints<dim>     &points,
-                       const LatticeWindow<dim>  &window,
-                       const ActiveNodes<dim>    &nodes,
+  add_scalars_to_nodes(const Patch<dim>          &patch,
                        const std::vector<double> &values,
                        const unsigned int         n_values,
                        std::vector<double>       &sums)
   {
-    for_each_point(points,
-                   window,
-                   nodes,
-                   [&](const unsigned int slot, const auto &local, const auto &basis) {
-                     for (std::size_t A = 0; A < local.size(); ++A)
-                       for (unsigned int k = 0; k < n_values; ++k)
-                         sums[std::size_t(local[A]) * n_values + k] +=
-                           basis.value[A] * values[std::size_t(slot) * n_values + k];
-                   });
+    for_each_point(patch, [&](const unsigned int slot, const auto &local, const auto &basis) {
+      for (std::size_t A = 0; A < local.size(); ++A)
+        for (unsigned int k = 0; k < n_values; ++k)
+          sums[std::size_t(local[A]) * n_values + k] +=
+            basis.value[A] * values[std::size_t(slot) * n_values + k];
+    });
   }
 
 
 
   template <int dim>
   void
-  interpolate_to_points(const StepPoints<dim>               &points,
-                        const LatticeWindow<dim>            &window,
-                        const ActiveNodes<dim>              &nodes,
+  interpolate_to_points(const Patch<dim>                    &patch,
                         const std::vector<double>           &nodal,
                         std::vector<dealii::Tensor<1, dim>> &at_points)
   {
-    at_points.resize(points.size());
-    for_each_point(points,
-                   window,
-                   nodes,
-                   [&](const unsigned int slot, const auto &local, const auto &basis) {
-                     dealii::Tensor<1, dim> value;
-                     for (std::size_t A = 0; A < local.size(); ++A)
-                       for (int d = 0; d < dim; ++d)
-                         value[d] += basis.value[A] * nodal[std::size_t(local[A]) * dim + d];
-                     at_points[slot] = value;
-                   });
+    at_points.resize(patch.points.size());
+    for_each_point(patch, [&](const unsigned int slot, const auto &local, const auto &basis) {
+      dealii::Tensor<1, dim> value;
+      for (std::size_t A = 0; A < local.size(); ++A)
+        for (int d = 0; d < dim; ++d)
+          value[d] += basis.value[A] * nodal[std::size_t(local[A]) * dim + d];
+      at_points[slot] = value;
+    });
   }
 
 
 
   template <int dim>
   void
-  gradients_at_points(const StepPoints<dim>               &points,
-                      const LatticeWindow<dim>            &window,
-                      const ActiveNodes<dim>              &nodes,
+  gradients_at_points(const Patch<dim>                    &patch,
                       const std::vector<double>           &nodal,
                       std::vector<dealii::Tensor<2, dim>> &gradients)
   {
-    gradients.resize(points.size());
-    for_each_point(points,
-                   window,
-                   nodes,
-                   [&](const unsigned int slot, const auto &local, const auto &basis) {
-                     for (int i = 0; i < dim; ++i)
-                       for (int j = 0; j < dim; ++j)
-                         {
-                           double sum = 0.;
-                           for (std::size_t A = 0; A < local.size(); ++A)
-                             sum += nodal[std::size_t(local[A]) * dim + i] * basis.gradient[j][A];
-                           gradients[slot][i][j] = sum;
-                         }
-                   });
+    gradients.resize(patch.points.size());
+    for_each_point(patch, [&](const unsigned int slot, const auto &local, const auto &basis) {
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          {
+            double sum = 0.;
+            for (std::size_t A = 0; A < local.size(); ++A)
+              sum += nodal[std::size_t(local[A]) * dim + i] * basis.gradient[j][A];
+            gradients[slot][i][j] = sum;
+          }
+    });
   }
 
 
@@ -274,26 +235,25 @@ namespace kedge
   template <int dim>
   void
   multiply(const NodeMatrix<dim>     &matrix,
-           const LatticeWindow<dim>  &window,
-           const ActiveNodes<dim>    &nodes,
+           const Patch<dim>          &patch,
            const unsigned int         n_components,
            const std::vector<double> &x,
            std::vector<double>       &y)
   {
     // a matrix with one component acts alike on all components of x
-    const std::vector<int> strides = matrix.slot_strides(window);
+    const std::vector<int> strides = matrix.slot_strides(patch.window());
     std::fill(y.begin(), y.end(), 0.);
-    const int n_window = static_cast<int>(window.n_nodes_total());
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+    const int n_window = static_cast<int>(patch.window().n_nodes_total());
+    for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
       {
         const double *row = matrix.row(i, 0);
         for (unsigned int s = 0; s < matrix.n_slots(); ++s)
           if (row[s] != 0.)
             {
-              const int neighbour = static_cast<int>(nodes.window_node(i)) + strides[s];
+              const int neighbour = static_cast<int>(patch.nodes.window_node(i)) + strides[s];
               if (neighbour < 0 || neighbour >= n_window)
                 continue;
-              const int j = nodes.local(neighbour);
+              const int j = patch.nodes.local(neighbour);
               if (j < 0)
                 continue;
               for (unsigned int c = 0; c < n_components; ++c)
@@ -305,17 +265,14 @@ namespace kedge
 
   template <int dim>
   std::vector<unsigned int>
-  node_neighbours(const NodeMatrix<dim>    &matrix,
-                  const LatticeWindow<dim> &window,
-                  const ActiveNodes<dim>   &nodes)
+  node_neighbours(const NodeMatrix<dim> &matrix, const Patch<dim> &patch)
   {
-    std::vector<unsigned int> neighbours(std::size_t(nodes.n_local()) * matrix.n_slots());
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+    std::vector<unsigned int> neighbours(std::size_t(patch.nodes.n_local()) * matrix.n_slots());
+    for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
       {
         unsigned int *row = &neighbours[std::size_t(i) * matrix.n_slots()];
         std::fill_n(row, matrix.n_slots(), i);
-        for_neighbours(window,
-                       nodes,
+        for_neighbours(patch,
                        i,
                        matrix,
                        [&](const unsigned int slot, const unsigned int neighbour) {
@@ -327,78 +284,91 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** y = A x for the values [first, n_values) of each node. */
+    template <unsigned int first, unsigned int n_values, int dim>
+    void
+    multiply_values(const NodeMatrix<dim>           &matrix,
+                    const std::vector<unsigned int> &neighbours,
+                    const std::vector<double>       &x,
+                    std::vector<double>             &y)
+    {
+      constexpr unsigned int n       = n_values - first;
+      const unsigned int     n_slots = matrix.n_slots();
+      const std::size_t      n_nodes = neighbours.size() / n_slots;
+      for (std::size_t i = 0; i < n_nodes; ++i)
+        {
+          const double       *row       = matrix.row(i, 0);
+          const unsigned int *neighbour = &neighbours[i * n_slots];
+          double              sum[n]    = {};
+          for (unsigned int s = 0; s < n_slots; ++s)
+            for (unsigned int d = 0; d < n; ++d)
+              sum[d] += row[s] * x[std::size_t(neighbour[s]) * n_values + first + d];
+          for (unsigned int d = 0; d < n; ++d)
+            y[i * n_values + first + d] = sum[d];
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
-  multiply(const NodeMatrix<dim>           &matrix,
-           const std::vector<unsigned int> &neighbours,
-           const std::vector<double>       &x,
-           std::vector<double>             &y)
+  multiply_velocities(const NodeMatrix<dim>           &matrix,
+                      const std::vector<unsigned int> &neighbours,
+                      const std::vector<double>       &x,
+                      std::vector<double>             &y)
   {
-    const unsigned int n_slots = matrix.n_slots();
-    const std::size_t  n_nodes = neighbours.size() / n_slots;
-    for (std::size_t i = 0; i < n_nodes; ++i)
-      {
-        const double       *row       = matrix.row(i, 0);
-        const unsigned int *neighbour = &neighbours[i * n_slots];
-        double              sum[dim]  = {};
-        for (unsigned int s = 0; s < n_slots; ++s)
-          for (int d = 0; d < dim; ++d)
-            sum[d] += row[s] * x[std::size_t(neighbour[s]) * dim + d];
-        for (int d = 0; d < dim; ++d)
-          y[i * dim + d] = sum[d];
-      }
+    multiply_values<0, dim>(matrix, neighbours, x, y);
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                   \
-  template void assemble_mass(const StepPoints<dim> &,                           \
-                              const LatticeWindow<dim> &,                        \
-                              const ActiveNodes<dim> &,                          \
-                              NodeMatrix<dim> &);                                \
-  template void assemble_mass(const StepPoints<dim> &,                           \
-                              const LatticeWindow<dim> &,                        \
-                              const ActiveNodes<dim> &,                          \
-                              const std::vector<double> &,                       \
-                              NodeMatrix<dim> &);                                \
-  template void assemble_laplacian(const StepPoints<dim> &,                      \
-                                   const LatticeWindow<dim> &,                   \
-                                   const ActiveNodes<dim> &,                     \
-                                   const std::vector<double> &,                  \
-                                   NodeMatrix<dim> &);                           \
-  template void blend_mass(const double, NodeMatrix<dim> &, const unsigned int); \
-  template void add_to_nodes(const StepPoints<dim> &,                            \
-                             const LatticeWindow<dim> &,                         \
-                             const ActiveNodes<dim> &,                           \
-                             const std::vector<double> &,                        \
-                             const std::vector<dealii::Tensor<1, dim>> &,        \
-                             std::vector<double> &);                             \
-  template void add_scalars_to_nodes(const StepPoints<dim> &,                    \
-                                     const LatticeWindow<dim> &,                 \
-                                     const ActiveNodes<dim> &,                   \
-                                     const std::vector<double> &,                \
-                                     const unsigned int,                         \
-                                     std::vector<double> &);                     \
-  template void interpolate_to_points(const StepPoints<dim> &,                   \
-                                      const LatticeWindow<dim> &,                \
-                                      const ActiveNodes<dim> &,                  \
-                                      const std::vector<double> &,               \
-                                      std::vector<dealii::Tensor<1, dim>> &);    \
-  template void gradients_at_points(const StepPoints<dim> &,                     \
-                                    const LatticeWindow<dim> &,                  \
-                                    const ActiveNodes<dim> &,                    \
-                                    const std::vector<double> &,                 \
-                                    std::vector<dealii::Tensor<2, dim>> &);      \
-  template std::vector<unsigned int> node_neighbours(const NodeMatrix<dim> &,    \
-                                                     const LatticeWindow<dim> &, \
-                                                     const ActiveNodes<dim> &);  \
-  template void                      multiply(const NodeMatrix<dim> &,           \
-                                              const std::vector<unsigned int> &, \
-                                              const std::vector<double> &,       \
-                                              std::vector<double> &);            \
-  template void                      multiply(const NodeMatrix<dim> &,           \
-                                              const LatticeWindow<dim> &,        \
-                                              const ActiveNodes<dim> &,          \
-                                              const unsigned int,                \
-                                              const std::vector<double> &,       \
+
+
+  template <int dim>
+  void
+  multiply_pressures(const NodeMatrix<dim>           &matrix,
+                     const std::vector<unsigned int> &neighbours,
+                     const std::vector<double>       &x,
+                     std::vector<double>             &y)
+  {
+    multiply_values<dim, dim + 1>(matrix, neighbours, x, y);
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                                                     \
+  template void assemble_mass(const Patch<dim> &, NodeMatrix<dim> &);                              \
+  template void assemble_mass(const Patch<dim> &, const std::vector<double> &, NodeMatrix<dim> &); \
+  template void assemble_laplacian(const Patch<dim> &,                                             \
+                                   const std::vector<double> &,                                    \
+                                   NodeMatrix<dim> &);                                             \
+  template void blend_mass(const double, NodeMatrix<dim> &, const unsigned int);                   \
+  template void add_to_nodes(const Patch<dim> &,                                                   \
+                             const std::vector<double> &,                                          \
+                             const std::vector<dealii::Tensor<1, dim>> &,                          \
+                             std::vector<double> &);                                               \
+  template void add_scalars_to_nodes(const Patch<dim> &,                                           \
+                                     const std::vector<double> &,                                  \
+                                     const unsigned int,                                           \
+                                     std::vector<double> &);                                       \
+  template void interpolate_to_points(const Patch<dim> &,                                          \
+                                      const std::vector<double> &,                                 \
+                                      std::vector<dealii::Tensor<1, dim>> &);                      \
+  template void gradients_at_points(const Patch<dim> &,                                            \
+                                    const std::vector<double> &,                                   \
+                                    std::vector<dealii::Tensor<2, dim>> &);                        \
+  template std::vector<unsigned int> node_neighbours(const NodeMatrix<dim> &, const Patch<dim> &); \
+  template void                      multiply_velocities(const NodeMatrix<dim> &,                  \
+                                                         const std::vector<unsigned int> &,        \
+                                                         const std::vector<double> &,              \
+                                                         std::vector<double> &);                   \
+  template void                      multiply_pressures(const NodeMatrix<dim> &,                   \
+                                                        const std::vector<unsigned int> &,         \
+                                                        const std::vector<double> &,               \
+                                                        std::vector<double> &);                    \
+  template void                      multiply(const NodeMatrix<dim> &,                             \
+                                              const Patch<dim> &,                                  \
+                                              const unsigned int,                                  \
+                                              const std::vector<double> &,                         \
                                               std::vector<double> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

@@ -29,19 +29,17 @@ namespace kedge
 
   template <int dim>
   void
-  VelocityMapping<dim>::reinit(const BackgroundGrid<dim> &grid,
-                               const ActiveNodes<dim>    &nodes,
-                               const NodeConditions<dim> &conditions,
-                               const NodeTies<dim>       &ties,
-                               const NodeMatrix<dim>     &mass,
-                               const bool                 new_pattern)
+  VelocityMapping<dim>::reinit(const Patch<dim> &patch, const NodeMatrix<dim> &mass)
   {
-    if (new_pattern)
-      {
-        find_components(conditions, nodes, ties);
-        neighbours = node_neighbours(mass, grid.window(), nodes);
-      }
-    set_scaling(nodes, ties, mass);
+    this->patch = &patch;
+    this->mass  = &mass;
+    if (patch.new_pattern() || components.empty())
+      find_components();
+    std::vector<NodalStatus> status(std::size_t(patch.nodes.n_local()) * dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
+        status[std::size_t(i) * dim + d] = components[component_of_direction[d]].status[i];
+    system.reinit(patch, mass, status, patch.new_pattern());
     is_hard = false;
     for (Component &component : components)
       component.is_factorised = false;
@@ -51,24 +49,18 @@ namespace kedge
 
   template <int dim>
   void
-  VelocityMapping<dim>::find_components(const NodeConditions<dim> &conditions,
-                                        const ActiveNodes<dim>    &nodes,
-                                        const NodeTies<dim>       &ties)
+  VelocityMapping<dim>::find_components()
   {
     components.clear();
     for (int d = 0; d < dim; ++d)
       {
-        std::vector<NodalStatus> status(nodes.n_local());
-        for (unsigned int i = 0; i < nodes.n_local(); ++i)
-          status[i] = conditions.prescribed(i, d) ? NodalStatus::prescribed
-                      : ties.tie_of(i, d) >= 0    ? NodalStatus::tied
-                                                  : NodalStatus::free;
-        unsigned int c = 0;
-        int          same;
+        std::vector<NodalStatus> status = patch->constraints.status_of(d);
+        unsigned int             c      = 0;
+        int                      same;
         for (; c < components.size(); ++c)
           {
             same = components[c].status == status;
-            MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, nodes.communicator());
+            MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, patch->nodes.communicator());
             if (same)
               break;
           }
@@ -84,119 +76,8 @@ namespace kedge
 
 
   template <int dim>
-  void
-  VelocityMapping<dim>::set_scaling(const ActiveNodes<dim> &nodes,
-                                    const NodeTies<dim>    &ties,
-                                    const NodeMatrix<dim>  &mass)
-  {
-    std::vector<double> lumped(nodes.n_local(), 0.);
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      for (unsigned int s = 0; s < mass.n_slots(); ++s)
-        lumped[i] += std::abs(mass.row(i, 0)[s]);
-    for (unsigned int t = 0; t < ties.ties().size(); ++t)
-      {
-        const auto &tie = ties.ties()[t];
-        if (ties.tie_of(tie.node) == static_cast<int>(t)) // not of pressures alone
-          for (unsigned int k = 0; k < tie.roots.size(); ++k)
-            lumped[tie.roots[k]] += std::abs(tie.weights[k]) * lumped[tie.node];
-      }
-    nodes.add_to_owners(lumped, 1);
-    inverse_lumped.assign(lumped.size() * dim, 0.);
-    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-      for (int d = 0; d < dim; ++d)
-        if (components[component_of_direction[d]].status[i] == NodalStatus::free && lumped[i] > 0.)
-          inverse_lumped[std::size_t(i) * dim + d] = 1. / lumped[i];
-  }
-
-
-
-  /** C^T M~ C of values at the free nodes; what is tied or a ghost in @p nodal is set here. */
-  template <int dim>
-  void
-  VelocityMapping<dim>::apply_mass(const ActiveNodes<dim> &nodes,
-                                   const NodeTies<dim>    &ties,
-                                   const NodeMatrix<dim>  &mass,
-                                   std::vector<double>    &nodal,
-                                   std::vector<double>    &product) const
-  {
-    nodes.update_ghosts(nodal, dim);
-    ties.prolong(nodal);
-    multiply(mass, neighbours, nodal, product);
-    ties.restrict_sums(product);
-    nodes.add_to_owners(product, dim);
-  }
-
-
-
-  /**
-   * Conjugate gradients for C^T M~ C correction = defect with the lumped mass
-   * as preconditioner, which leaves small what the points do not determine;
-   * false if they do not get there (collective).
-   *
-   * @param energy correction . defect, over all ranks
-   */
-  template <int dim>
-  bool
-  VelocityMapping<dim>::iterate(const ActiveNodes<dim> &nodes,
-                                const NodeTies<dim>    &ties,
-                                const NodeMatrix<dim>  &mass,
-                                const double            tolerance,
-                                std::vector<double>     residual,
-                                std::vector<double>    &correction,
-                                double                 &energy) const
-  {
-    const std::size_t   n_owned = std::size_t(nodes.n_owned()) * dim;
-    std::vector<double> direction(residual.size(), 0.), product(residual.size());
-    correction.assign(residual.size(), 0.);
-    const auto squared_norm = [&](const std::vector<double> &r) {
-      double sum = 0.;
-      for (std::size_t i = 0; i < n_owned; ++i)
-        sum += r[i] * r[i] * inverse_lumped[i];
-      return dealii::Utilities::MPI::sum(sum, nodes.communicator());
-    };
-    energy             = 0.;
-    const double first = squared_norm(residual);
-    double       norm = first, before = 1.;
-    for (unsigned int k = 0; k < most_iterations && norm > 0.; ++k)
-      {
-        if (norm <= tolerance * tolerance * first)
-          break;
-        const double beta = k == 0 ? 0. : norm / before;
-        for (std::size_t i = 0; i < n_owned; ++i)
-          direction[i] = inverse_lumped[i] * residual[i] + beta * direction[i];
-        apply_mass(nodes, ties, mass, direction, product);
-        double curvature = 0.;
-        for (std::size_t i = 0; i < n_owned; ++i)
-          if (inverse_lumped[i] != 0.)
-            curvature += direction[i] * product[i];
-        curvature = dealii::Utilities::MPI::sum(curvature, nodes.communicator());
-        if (!(curvature > 0.))
-          return false;
-        // its inverse lies among the eigenvalues of the scaled matrix: none may be tiny
-        const double alpha = norm / curvature;
-        if (alpha > longest_step)
-          return false;
-        for (std::size_t i = 0; i < n_owned; ++i)
-          if (inverse_lumped[i] != 0.)
-            {
-              correction[i] += alpha * direction[i];
-              residual[i] -= alpha * product[i];
-            }
-        energy += alpha * norm;
-        before = norm;
-        norm   = squared_norm(residual);
-      }
-    return norm <= tolerance * tolerance * first;
-  }
-
-
-
-  template <int dim>
   LinearStatus
-  VelocityMapping<dim>::factorise_all(const BackgroundGrid<dim> &grid,
-                                      const ActiveNodes<dim>    &nodes,
-                                      const NodeTies<dim>       &ties,
-                                      const NodeMatrix<dim>     &mass)
+  VelocityMapping<dim>::factorise_all()
   {
     LinearSolverParameters parameters;
     parameters.tolerance      = 1e-10; // the corrections do the rest
@@ -210,11 +91,11 @@ namespace kedge
         {
           if (!component.has_pattern)
             {
-              component.equations.reinit(grid, nodes, ties, component.status, mass);
+              component.equations.reinit(*patch, component.status, *mass);
               component.solver      = std::make_unique<LinearSolver>(parameters, traits);
               component.has_pattern = true;
             }
-          component.equations.fill(nodes, mass);
+          component.equations.fill(*patch, *mass);
           const LinearStatus status = factorise(component);
           if (!status.success)
             return status;
@@ -277,18 +158,13 @@ namespace kedge
 
   template <int dim>
   LinearStatus
-  VelocityMapping<dim>::solve(const BackgroundGrid<dim> &grid,
-                              const ActiveNodes<dim>    &nodes,
-                              const NodeTies<dim>       &ties,
-                              const NodeMatrix<dim>     &mass,
-                              const std::vector<double> &momentum,
-                              std::vector<double>       &nodal)
+  VelocityMapping<dim>::solve(const std::vector<double> &momentum, std::vector<double> &nodal)
   {
     // start from zero where nothing is prescribed
     for (int d = 0; d < dim; ++d)
       {
         const auto &status = components[component_of_direction[d]].status;
-        for (unsigned int i = 0; i < nodes.n_local(); ++i)
+        for (unsigned int i = 0; i < patch->nodes.n_local(); ++i)
           if (status[i] != NodalStatus::prescribed)
             nodal[std::size_t(i) * dim + d] = 0.;
       }
@@ -297,32 +173,36 @@ namespace kedge
     std::vector<double> defect(nodal.size()), correction;
     for (unsigned int k = 0; k < most_corrections; ++k)
       {
-        apply_mass(nodes, ties, mass, nodal, defect);
+        system.apply(nodal, defect);
         for (std::size_t i = 0; i < defect.size(); ++i)
           defect[i] = momentum[i] - defect[i];
 
         const double tolerance = k == 0 ? first_tolerance : later_tolerance;
         double       energy    = 0.;
-        is_hard = is_hard || !iterate(nodes, ties, mass, tolerance, defect, correction, energy);
+        is_hard                = is_hard ||
+                  !system.iterate({tolerance * system.norm(defect), most_iterations, longest_step},
+                                  defect,
+                                  correction,
+                                  energy);
         if (is_hard)
           {
-            LinearStatus status = factorise_all(grid, nodes, ties, mass);
+            LinearStatus status = factorise_all();
             if (status.success)
               status = correct(defect, nodal, energy);
             if (!status.success)
               return status;
-            energy = dealii::Utilities::MPI::sum(energy, nodes.communicator());
+            energy = dealii::Utilities::MPI::sum(energy, patch->nodes.communicator());
           }
         else
-          for (std::size_t i = 0; i < std::size_t(nodes.n_owned()) * dim; ++i)
+          for (std::size_t i = 0; i < std::size_t(patch->nodes.n_owned()) * dim; ++i)
             nodal[i] += correction[i];
         if (k == 0)
           whole = energy;
         if (whole == 0. || (k > 0 && !(energy > relative_tolerance * whole)))
           break;
       }
-    nodes.update_ghosts(nodal, dim);
-    ties.prolong(nodal);
+    patch->nodes.update_ghosts(nodal, dim);
+    patch->ties.prolong(nodal);
     return {};
   }
 

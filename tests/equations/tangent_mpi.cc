@@ -123,7 +123,7 @@ namespace
             std::make_unique<Patch<dim>>(cloud.grid, parameters, NodeConditions<dim>({}, {}));
           patches[f]->reinit(cloud.points, [](std::vector<unsigned char> &) {});
           mass[f].reinit(patches[f]->nodes.n_local(), 1, 2);
-          assemble_mass(patches[f]->points, patches[f]->window(), patches[f]->nodes, mass[f]);
+          assemble_mass(*patches[f], mass[f]);
           terms.push_back(std::make_unique<SolidTerm<dim>>(f, *patches[f], materials, scheme));
           terms.push_back(std::make_unique<InertiaTerm<dim>>(f, *patches[f], mass[f], scheme));
         }

@@ -140,7 +140,7 @@ TYPED_TEST(TransferTiesMpi, EquationsAreTheDenseProduct)
     const auto      ties = all_ties(cloud);
     NodeMatrix<dim> mass;
     mass.reinit(cloud.nodes.n_local(), 1, 2);
-    assemble_mass(cloud.step, cloud.window(), cloud.nodes, mass);
+    assemble_mass(cloud.patch, mass);
 
     std::vector<NodalStatus> status(cloud.nodes.n_local(), NodalStatus::free);
     for (unsigned int i = 0; i < status.size(); ++i)
@@ -149,8 +149,8 @@ TYPED_TEST(TransferTiesMpi, EquationsAreTheDenseProduct)
       else if (cloud.ties.tie_of(i) >= 0)
         status[i] = NodalStatus::tied;
     EquationSystem<dim> equations;
-    equations.reinit(cloud.grid, cloud.nodes, cloud.ties, status, mass);
-    equations.fill(cloud.nodes, mass);
+    equations.reinit(cloud.patch, status, mass);
+    equations.fill(cloud.patch, mass);
 
     const SparseSystem      &system = equations.system();
     std::vector<std::size_t> mine, node_of;
@@ -197,7 +197,7 @@ TYPED_TEST(TransferTiesMpi, EquationsOfVectorsAreTheDenseProduct)
     const auto      ties = all_ties(cloud);
     NodeMatrix<dim> mass, matrix;
     mass.reinit(cloud.nodes.n_local(), 1, 2);
-    assemble_mass(cloud.step, cloud.window(), cloud.nodes, mass);
+    assemble_mass(cloud.patch, mass);
     matrix.reinit(cloud.nodes.n_local(), dim, 2);
     for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
       for (int p = 0; p < dim; ++p)
@@ -215,8 +215,8 @@ TYPED_TEST(TransferTiesMpi, EquationsOfVectorsAreTheDenseProduct)
       else if (cloud.ties.tie_of(i / dim) >= 0)
         status[i] = NodalStatus::tied;
     EquationSystem<dim> equations;
-    equations.reinit(cloud.grid, cloud.nodes, cloud.ties, status, matrix);
-    equations.fill(cloud.nodes, matrix);
+    equations.reinit(cloud.patch, status, matrix);
+    equations.fill(cloud.patch, matrix);
 
     const SparseSystem      &system = equations.system();
     std::vector<std::size_t> mine, index_of; // window number * dim + component

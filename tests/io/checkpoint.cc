@@ -25,13 +25,13 @@ namespace
   make_data(const double time)
   {
     CheckpointData<dim> data;
-    data.scene_fingerprint = "scene-1";
-    data.n_ranks           = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    data.scalars["time"]   = time;
-    data.counters["step"]  = (std::uint64_t(1) << 63) + 1;
-    data.arrays["empty"]   = {};
-    data.arrays["values"]  = {1. / 3., -0., std::nan("")};
-    data.points            = test::make_points<dim>(5 + rank(), 100 * rank());
+    data.settings = {{"Title", "a"}, {"Time/Step", "0.1"}, {"Materials/Output/Density", "1"}};
+    data.n_ranks  = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    data.scalars["time"]  = time;
+    data.counters["step"] = (std::uint64_t(1) << 63) + 1;
+    data.arrays["empty"]  = {};
+    data.arrays["values"] = {1. / 3., -0., std::nan("")};
+    data.points           = test::make_points<dim>(5 + rank(), 100 * rank());
     std::swap(data.points[0], data.points[3]); // an order of its own
     return data;
   }
@@ -50,7 +50,7 @@ namespace
   void
   expect_same(const CheckpointData<dim> &a, const CheckpointData<dim> &b)
   {
-    EXPECT_EQ(a.scene_fingerprint, b.scene_fingerprint);
+    EXPECT_EQ(a.settings, b.settings);
     EXPECT_EQ(a.n_ranks, b.n_ranks);
     EXPECT_EQ(a.scalars, b.scalars);
     EXPECT_EQ(a.counters, b.counters);
@@ -71,11 +71,11 @@ namespace
 
   /** What read_latest says; the time it read if it succeeds. */
   std::string
-  outcome(const RunFolder &run, const std::string &fingerprint = "scene-1")
+  outcome(const RunFolder &run, const SceneSettings &settings = make_data<2>(0).settings)
   {
     try
       {
-        const auto data = CheckpointStore<2>(run).read_latest(fingerprint);
+        const auto data = CheckpointStore<2>(run).read_latest(settings);
         return exact_text(data.scalars.at("time"));
       }
     catch (const UserError &error)
@@ -99,7 +99,7 @@ test_round_trip()
   const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
   const auto                data = make_data<dim>(0.1);
   CheckpointStore<dim>(run).write(data);
-  expect_same(CheckpointStore<dim>(run).read_latest("scene-1"), data);
+  expect_same(CheckpointStore<dim>(run).read_latest(make_data<2>(0).settings), data);
 }
 
 TEST(IoCheckpointMpi, ComesBackBitForBit)
@@ -154,7 +154,7 @@ TEST(IoCheckpointMpi, FallsBackFromADamagedOne)
 
   // The next one written replaces the damaged one, not the one resumed from.
   CheckpointStore<2> store(run);
-  store.read_latest("scene-1");
+  store.read_latest(make_data<2>(0).settings);
   store.write(make_data<2>(3));
   MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_TRUE(fs::exists(scratch / "checkpoint/state-000001"));
@@ -192,10 +192,19 @@ TEST(IoCheckpointMpi, ForeignOnesAreTheUsersErrors)
   const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
   EXPECT_TRUE(contains(outcome(run), "There is no checkpoint"));
   CheckpointStore<2>(run).write(make_data<2>(1));
-  const std::string message = outcome(run, "scene-2");
+  // what concerns output and the end may change; a material named like a section may not
+  SceneSettings settings = make_data<2>(0).settings;
+  settings["Time/Step"]  = "0.2";
+  settings["Title"]      = "b";
+  EXPECT_EQ(outcome(run, settings), "1");
+  settings["Materials/Output/Density"] = "2";
+  settings["Newton/Tolerance"]         = "1e-9";
+  const std::string message            = outcome(run, settings);
   EXPECT_TRUE(contains(message, "belongs to another scene")) << message;
-  EXPECT_TRUE(contains(message, "scene-1") && contains(message, "scene-2")) << message;
-  EXPECT_THROW(CheckpointStore<3>(run).read_latest("scene-1"), UserError);
+  EXPECT_TRUE(contains(message, "Materials/Output/Density was '1', is '2'")) << message;
+  EXPECT_TRUE(contains(message, "Newton/Tolerance was not there, is '1e-9'")) << message;
+  EXPECT_FALSE(contains(message, "Time/Step")) << message;
+  EXPECT_THROW(CheckpointStore<3>(run).read_latest(make_data<2>(0).settings), UserError);
 }
 
 TEST(IoCheckpointMpi, AnotherNumberOfRanks)
@@ -212,9 +221,19 @@ TEST(IoCheckpointMpi, AnotherNumberOfRanks)
   EXPECT_TRUE(contains(message, "mpirun -np 2")) << message;
 }
 
-TEST(IoCheckpoint, FingerprintTellsScenesApart)
+TEST(IoCheckpoint, ChangesThatResumingAllows)
 {
-  EXPECT_EQ(fingerprint("abc"), fingerprint("abc"));
-  EXPECT_NE(fingerprint("abc"), fingerprint("abd"));
-  EXPECT_EQ(fingerprint("123456789"), "cbf43926-9"); // the check value of CRC-32
+  for (const char *name :
+       {"Title", "Time/End", "Time/Step", "Output/Fields", "Checks/mass/Reference"})
+    EXPECT_TRUE(may_change_on_resume(name)) << name;
+  // names of the user's own: a material Checks, a body Output, a constant Step
+  for (const char *name :
+       {"Materials/Checks/Density", "Bodies/Output/Box", "Constants/Step", "Time/Alpha"})
+    EXPECT_FALSE(may_change_on_resume(name)) << name;
+  SceneSettings then, now;
+  for (const char *name : {"a", "b", "c", "d", "e", "f", "g"})
+    then[name] = "1";
+  EXPECT_EQ(forbidden_changes(then, then), "");
+  const std::string all = forbidden_changes(then, now); // names five of seven
+  EXPECT_TRUE(contains(all, "e was '1', is not there, and 2 more")) << all;
 }

@@ -137,16 +137,7 @@ namespace
       std::vector<double> result(x.size(), 0.);
       PorousSize          size;
       outflow.assign(2, 0.);
-      EXPECT_TRUE(force
-                    .add_residual(points,
-                                  pores,
-                                  cloud.window(),
-                                  cloud.nodes,
-                                  trial(x, a),
-                                  result,
-                                  outflow,
-                                  size)
-                    .ok());
+      EXPECT_TRUE(force.add_residual(cloud.patch, pores, trial(x, a), result, outflow, size).ok());
       // the terms bound what is left of them
       double left = 0.;
       for (unsigned int i = 0; i < result.size(); ++i)
@@ -195,12 +186,7 @@ namespace
     tangent.reinit(cloud.nodes.n_local(), dim + 1, 2);
     tangent.set_zero();
     const auto a = problem.acceleration(x);
-    problem.force.add_tangent(problem.points,
-                              problem.pores,
-                              cloud.window(),
-                              cloud.nodes,
-                              problem.trial(x, a),
-                              tangent);
+    problem.force.add_tangent(cloud.patch, problem.pores, problem.trial(x, a), tangent);
     const std::vector<int> strides = tangent.slot_strides(cloud.window());
 
     const double h             = 1e-5;
@@ -282,12 +268,7 @@ TYPED_TEST(PorousForceTest, VolumeOfFluidChangesByItsContentAlone)
       expected = problem.outflow[0] + problem.outflow[1];
       EXPECT_NE(problem.outflow[0], 0.);
       std::vector<PoreUpdate<dim>> updates;
-      problem.force.evaluate_updates(problem.points,
-                                     problem.pores,
-                                     cloud.window(),
-                                     cloud.nodes,
-                                     problem.trial(x, a),
-                                     updates);
+      problem.force.evaluate_updates(cloud.patch, problem.pores, problem.trial(x, a), updates);
       for (const auto &batch : problem.points.batches)
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           {

@@ -112,10 +112,10 @@ namespace
   struct Faces
   {
     Faces(const BasisKind basis, const double factor)
-      : cloud({basis}, 2, 23)
+      : cloud({basis}, 2, 23, 2, 0., dim + 1)
     {
       auto reached = cloud.step.reached_nodes(cloud.window());
-      ghosts.find(cloud.grid, cloud.step, {2.6}, reached);
+      ghosts.find(cloud.patch, {2.6}, reached);
       cloud.nodes.reinit(cloud.grid, reached); // faces reach nodes of the other rank's points
       cloud.prescribe(NodeConditions<dim>({}, {}));
       for (NodeMatrix<dim> *matrix : {&conductance, &storage})
@@ -123,8 +123,8 @@ namespace
           matrix->reinit(cloud.nodes.n_local(), 1, 2);
           matrix->set_zero();
         }
-      ghosts.add_gradient_penalty(cloud.grid, cloud.nodes, 0.1 * factor, conductance);
-      ghosts.add_value_penalty(cloud.grid, cloud.nodes, 0.3 * factor, storage);
+      ghosts.add_gradient_penalty(cloud.patch, 0.1 * factor, conductance);
+      ghosts.add_value_penalty(cloud.patch, 0.3 * factor, storage);
     }
 
     Cloud<dim>        cloud;
@@ -233,7 +233,7 @@ TYPED_TEST(PorousGhostsMpi, TermsHaveTheSizeOfTheirIntegrals)
       for (unsigned int i = 0; i < field.size(); ++i)
         field[i] = 0.5 * std::pow(step.cloud.node_position(i)[d], 2);
       const auto energy = [&](const NodeMatrix<dim> &matrix) {
-        multiply(matrix, step.cloud.window(), step.cloud.nodes, 1, field, product);
+        multiply(matrix, step.cloud.patch, 1, field, product);
         double sum = 0.;
         for (unsigned int i = 0; i < field.size(); ++i)
           sum += field[i] * product[i];
@@ -259,18 +259,8 @@ TYPED_TEST(PorousGhostsMpi, ProjectionOfPressures)
         pores.reinit(step.cloud.points,
                      step.cloud.step,
                      PoreScheme(time_of(SchemeKind::quasi_static)));
-        const std::vector<NodalStatus> status(std::size_t(step.cloud.nodes.n_local()) * (dim + 1),
-                                              NodalStatus::free);
-        std::vector<double>            nodal(status.size(), 0.);
-        project_pressure(step.cloud.grid,
-                         step.cloud.nodes,
-                         step.cloud.ties,
-                         step.cloud.step,
-                         pores.pressure,
-                         bulk_modulus,
-                         status,
-                         storage,
-                         nodal);
+        std::vector<double> nodal(std::size_t(step.cloud.nodes.n_local()) * (dim + 1), 0.);
+        project_pressure(step.cloud.patch, pores.pressure, bulk_modulus, storage, nodal);
         std::vector<double> pressure;
         for (std::size_t k = dim; k < nodal.size(); k += dim + 1)
           pressure.push_back(nodal[k]);
@@ -278,7 +268,7 @@ TYPED_TEST(PorousGhostsMpi, ProjectionOfPressures)
       };
       const auto jumps_of = [&](const std::vector<double> &pressure) {
         std::vector<double> product(pressure.size());
-        multiply(step.storage, step.cloud.window(), step.cloud.nodes, 1, pressure, product);
+        multiply(step.storage, step.cloud.patch, 1, pressure, product);
         double sum = 0.;
         for (unsigned int i = 0; i < pressure.size(); ++i)
           sum += pressure[i] * product[i];
@@ -296,7 +286,7 @@ TYPED_TEST(PorousGhostsMpi, ProjectionOfPressures)
       NodeMatrix<dim> little;
       little.reinit(step.cloud.nodes.n_local(), 1, 2);
       little.set_zero();
-      step.ghosts.add_value_penalty(step.cloud.grid, step.cloud.nodes, 0.003, little);
+      step.ghosts.add_value_penalty(step.cloud.patch, 0.003, little);
       const auto wave = [](const dealii::Point<dim> &x) {
         return std::sin(9. * x[0] + 5. * x[1]);
       };
@@ -310,12 +300,7 @@ TYPED_TEST(PorousGhostsMpi, ProjectionOfPressures)
           weights[slot] = step.cloud.step.volume[slot] * step.cloud.step.determinant[slot];
           means[0] += weights[slot] * wave(step.cloud.step.location[slot]);
         }
-      add_scalars_to_nodes(step.cloud.step,
-                           step.cloud.window(),
-                           step.cloud.nodes,
-                           weights,
-                           1,
-                           sums);
+      add_scalars_to_nodes(step.cloud.patch, weights, 1, sums);
       for (unsigned int i = 0; i < sums.size(); ++i)
         means[1] += sums[i] * with[i];
       MPI_Allreduce(MPI_IN_PLACE, means, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);

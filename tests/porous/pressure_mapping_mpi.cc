@@ -26,7 +26,7 @@ namespace
     for (unsigned int slot = 0; slot < cloud.step.size(); ++slot)
       pressure.push_back(exact(cloud.step.location[slot]));
     PressureMapping<dim> mapping(kind);
-    mapping.map(cloud.step, cloud.window(), cloud.nodes, cloud.ties, pressure, 2, unknowns);
+    mapping.map(cloud.patch, pressure, 2, unknowns);
     double error = 0.;
     for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
       {

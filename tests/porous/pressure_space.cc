@@ -1,8 +1,8 @@
 // Pore pressures that live at the corners of whole cells: their space, and the system's slopes.
 #include "../stress/random_states.h"
 
-#include <kedge/porous/porous_force.h>
 #include <kedge/equations/equation_system.h>
+#include <kedge/porous/porous_force.h>
 #include <kedge/transfer/node_sums.h>
 
 #include <gtest/gtest.h>
@@ -82,7 +82,11 @@ namespace
   {
     CoarseCloud(const BasisKind basis, const double threshold)
       : grid(grid_parameters<dim>(), MPI_COMM_WORLD)
-      , conditions(top_pressure(), {})
+      , patch(grid, parameters(basis, threshold), {top_pressure(), {}})
+      , points(patch.points)
+      , nodes(patch.nodes)
+      , ties(patch.ties)
+      , status(patch.constraints.status())
     {
       RandomStates<dim>             random(11);
       std::vector<PointRecord<dim>> records;
@@ -115,17 +119,18 @@ namespace
       grid.cover(block, std::vector<unsigned int>(block.n_cells_total(), 4));
       const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
       cloud.distribute(grid, is_first ? records : std::vector<PointRecord<dim>>());
-      points.reinit(grid, cloud, {basis});
-      auto reached = points.reached_nodes(grid.window());
-      ties.find(grid, points, threshold, reached, true);
-      nodes.reinit(grid, reached);
-      conditions.reinit(grid, nodes);
-      ties.localise(nodes, conditions);
-      for (unsigned int i = 0; i < nodes.n_local(); ++i)
-        for (int c = 0; c <= dim; ++c)
-          status.push_back(ties.is_tied(i, c)                              ? NodalStatus::tied
-                           : c == dim && conditions.pressure_prescribed(i) ? NodalStatus::prescribed
-                                                                           : NodalStatus::free);
+      patch.reinit(cloud, [](std::vector<unsigned char> &) {});
+    }
+
+    static PatchParameters
+    parameters(const BasisKind basis, const double threshold)
+    {
+      PatchParameters result;
+      result.basis_of_body    = {basis};
+      result.smallest_filling = threshold;
+      result.coarse_pressure  = true;
+      result.n_components     = dim + 1;
+      return result;
     }
 
     static std::vector<NodeConditionParameters<dim>>
@@ -144,13 +149,13 @@ namespace
       return grid.window().node_index(nodes.window_node(local));
     }
 
-    BackgroundGrid<dim>      grid;
-    MaterialPoints<dim>      cloud;
-    StepPoints<dim>          points;
-    ActiveNodes<dim>         nodes;
-    NodeConditions<dim>      conditions;
-    NodeTies<dim>            ties;
-    std::vector<NodalStatus> status;
+    BackgroundGrid<dim>             grid;
+    MaterialPoints<dim>             cloud;
+    Patch<dim>                      patch;
+    const StepPoints<dim>          &points;
+    const ActiveNodes<dim>         &nodes;
+    const NodeTies<dim>            &ties;
+    const std::vector<NodalStatus> &status;
   };
 
   /** The residual at the free components, as a function of what they are. */
@@ -160,8 +165,9 @@ namespace
     System(const CoarseCloud<dim> &c, const Material &material)
       : c(c)
       , force({material}, {some_soil()}, 1., PoreScheme(newmark()))
-      , points(c.points)
+      , patch(c.patch)
     {
+      StepPoints<dim>  &points = patch.points;
       RandomStates<dim> random(3);
       for (unsigned int slot = 0; slot < points.size(); ++slot)
         {
@@ -174,7 +180,7 @@ namespace
       for (unsigned int slot = 0; slot < points.size(); ++slot)
         points.history.insert(points.history.end(), {0., 0.4}); // alpha, sigma_y
       matrix.reinit(c.nodes.n_local(), dim + 1, 2);
-      equations.reinit(c.grid, c.nodes, c.ties, c.status, matrix);
+      equations.reinit(patch, c.status, matrix);
     }
 
     std::vector<double>
@@ -213,10 +219,7 @@ namespace
       const auto          x = nodal(free), a = acceleration(x);
       std::vector<double> sums(x.size(), 0.), outflow, result;
       PorousSize          size;
-      EXPECT_TRUE(
-        force
-          .add_residual(points, pores, c.grid.window(), c.nodes, trial(x, a), sums, outflow, size)
-          .ok());
+      EXPECT_TRUE(force.add_residual(patch, pores, trial(x, a), sums, outflow, size).ok());
       c.ties.restrict_sums(sums, dim + 1);
       equations.gather(sums, result);
       return result;
@@ -227,13 +230,13 @@ namespace
     {
       const auto x = nodal(free), a = acceleration(x);
       matrix.set_zero();
-      force.add_tangent(points, pores, c.grid.window(), c.nodes, trial(x, a), matrix);
-      equations.fill(c.nodes, matrix);
+      force.add_tangent(patch, pores, trial(x, a), matrix);
+      equations.fill(patch, matrix);
     }
 
     const CoarseCloud<dim>        &c;
     PorousForce<dim>               force;
-    StepPoints<dim>                points;
+    Patch<dim>                     patch; ///< with histories
     PorePoints<dim>                pores;
     std::vector<SurfacePoint<dim>> faces;
     NodeMatrix<dim>                matrix;

@@ -19,7 +19,7 @@ namespace kedge::test
            const std::vector<double> &u)
   {
     std::vector<double> force(u.size(), 0.);
-    EXPECT_TRUE(internal.add_force(cloud.step, cloud.window(), cloud.nodes, u, force).ok());
+    EXPECT_TRUE(internal.add_force(cloud.patch, u, force).ok());
     return force;
   }
 
@@ -43,7 +43,7 @@ namespace kedge::test
     NodeMatrix<dim> stiffness;
     stiffness.reinit(cloud.nodes.n_local(), dim, radius);
     stiffness.set_zero();
-    internal.add_stiffness(cloud.step, cloud.window(), cloud.nodes, u, stiffness);
+    internal.add_stiffness(cloud.patch, u, stiffness);
     const std::vector<int>     strides = stiffness.slot_strides(cloud.window());
     dealii::FullMatrix<double> full(u.size(), u.size());
     for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)

@@ -45,7 +45,7 @@ TYPED_TEST(SolidGhostTerm, TangentIsTheSlopeOfTheResidual)
                                                               step.scheme));
         step.start();
         mass.reinit(step.patch.nodes.n_local(), 1, 2);
-        assemble_mass(step.patch.points, step.patch.window(), step.patch.nodes, mass);
+        assemble_mass(step.patch, mass);
         step.change_unknowns(0.03);
         expect_slope_of_residual(*step.equations);
       }

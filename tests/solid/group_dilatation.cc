@@ -96,7 +96,7 @@ namespace
                     const Visit                 &visit)
   {
     std::vector<dealii::Tensor<2, dim>> gradients;
-    gradients_at_points(cloud.step, cloud.window(), cloud.nodes, u, gradients);
+    gradients_at_points(cloud.patch, u, gradients);
     for (const auto &batch : cloud.step.batches)
       for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
         {
@@ -126,7 +126,7 @@ namespace
                     const std::vector<double>   &u)
   {
     GroupDilatation groups;
-    evaluate_group_dilatation(cloud.step, cloud.window(), cloud.nodes, u, 1., groups);
+    evaluate_group_dilatation(cloud.patch, u, 1., groups);
     double work = 0.;
     for_each_gradient(cloud, materials, u, [&](const auto slot, const auto &material, auto &A) {
       double E[n_symmetric<dim>];
@@ -161,9 +161,7 @@ namespace
                 const std::vector<double>   &u)
   {
     std::vector<PointUpdate<dim>> updates;
-    EXPECT_EQ(
-      evaluate_point_updates(materials, cloud.step, cloud.window(), cloud.nodes, u, updates),
-      PointStatus::none);
+    EXPECT_EQ(evaluate_point_updates(materials, cloud.patch, u, updates), PointStatus::none);
     return updates;
   }
 } // namespace

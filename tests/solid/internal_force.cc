@@ -87,7 +87,7 @@ namespace
          unsigned int              *n_plastic = nullptr)
   {
     std::vector<dealii::Tensor<2, dim>> gradients;
-    gradients_at_points(cloud.step, cloud.window(), cloud.nodes, u, gradients);
+    gradients_at_points(cloud.patch, u, gradients);
     double sum = 0.;
     for (const auto &batch : cloud.step.batches)
       for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
@@ -309,9 +309,9 @@ TYPED_TEST(SolidInternalForce, NamesThePointThatTurnsInsideOut)
   for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
     if (std::abs(cloud.node_position(i)[0] - cloud.step.location[slot][0]) < 0.7)
       u[i * dim] = -1.5 * cloud.node_position(i)[0];
-  const auto status = internal.add_force(cloud.step, cloud.window(), cloud.nodes, u, force);
+  const auto status = internal.add_force(cloud.patch, u, force);
   ASSERT_FALSE(status.ok());
   std::vector<dealii::Tensor<2, dim>> gradients;
-  gradients_at_points(cloud.step, cloud.window(), cloud.nodes, u, gradients);
+  gradients_at_points(cloud.patch, u, gradients);
   EXPECT_LE(determinant(dealii::unit_symmetric_tensor<dim>() + gradients[status.failed_slot]), 0.);
 }

@@ -269,6 +269,61 @@ TEST(SolversLinearMpi, SaysWhichEquationIsSingular)
     }
 }
 
+// A saddle point, [A B^T; B 0], in units eight decades apart: the last three unknowns are
+// multipliers. Direct methods solve it as accurately as the system without them, whatever
+// the units of the multipliers; iterative ones say that they cannot.
+TEST(SolversLinearMpi, MultipliersByDirectMethods)
+{
+  for (const double unit : {1e-9, 1., 1e9})
+    {
+      const auto is_multiplier = [](const int i) {
+        return i >= n - 3;
+      };
+      const auto system = make_system([&](const int i, const int j) {
+        if (is_multiplier(i) && is_multiplier(j))
+          return 0.;
+        if (!is_multiplier(i) && !is_multiplier(j))
+          return entry(i, j, 0.);
+        const int m = std::max(i, j), k = std::min(i, j); // every third unknown has a part
+        return k % 3 == n - 1 - m ? unit * std::cos(1. + k) * random_scale(i) * random_scale(j)
+                                  : 0.;
+      });
+      for (const Kind kind : {Kind::automatic, Kind::banded, Kind::direct, Kind::krylov_ilu})
+        {
+          SCOPED_TRACE(name(kind));
+          LinearSolverParameters parameters;
+          parameters.kind = kind;
+          MatrixTraits traits;
+          traits.multipliers = true;
+          LinearSolver solver(parameters, traits);
+          const auto   status = solver.factorise(system);
+          EXPECT_EQ(status.success, kind != Kind::krylov_ilu);
+          if (!status.success)
+            {
+              EXPECT_NE(status.cause.find("multipliers"), std::string::npos);
+              continue;
+            }
+          EXPECT_LT(status.condition_estimate, 1e4); // of the scaled matrix
+          std::vector<double> b, x;
+          const auto          exact = [&](const int i) {
+            return is_multiplier(i) ? solution(i) / unit : solution(i);
+          };
+          for (unsigned int i = 0; i < system.n_rows(); ++i)
+            {
+              b.push_back(0.);
+              for (std::int64_t k = system.row_start[i]; k < system.row_start[i + 1]; ++k)
+                b[i] += system.value[k] * exact(system.column[k]);
+            }
+          EXPECT_TRUE(solver.solve(b, x).success);
+          for (unsigned int i = 0; i < x.size(); ++i)
+            {
+              const int row = static_cast<int>(system.first_row) + i;
+              EXPECT_NEAR(x[i] / exact(row), 1., 1e-9); // condition below 1e4, round-off
+            }
+        }
+    }
+}
+
 // Large enough for an iterative method to be chosen, and nothing for it: the
 // diagonal is a fifth of the other entries. A direct method takes over, and
 // only for this matrix.

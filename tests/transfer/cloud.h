@@ -4,9 +4,8 @@
 
 #include "../stress/random_states.h"
 
-#include <kedge/fields/active_nodes.h>
+#include <kedge/fields/patch.h>
 #include <kedge/transfer/node_sums.h>
-#include <kedge/fields/node_ties.h>
 
 namespace kedge::test
 {
@@ -39,29 +38,31 @@ namespace kedge::test
     Cloud(const std::vector<BasisKind> &basis_of_body,
           const unsigned int            points_per_direction,
           const unsigned int            seed,
-          const int                     block_width = 2,
-          const double                  threshold   = 0.)
+          const int                     block_width  = 2,
+          const double                  threshold    = 0.,
+          const unsigned int            n_components = dim)
       : basis_of_body(basis_of_body)
       , grid(some_grid<dim>(box()), MPI_COMM_WORLD)
-      , conditions({}, {})
+      , patch(grid, patch_parameters(basis_of_body, threshold, n_components), {{}, {}})
+      , step(patch.points)
+      , nodes(patch.nodes)
+      , conditions(patch.conditions)
+      , ties(patch.ties)
     {
       make_records(basis_of_body.size(), points_per_direction, seed, block_width);
       const bool first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
       points.distribute(grid, first_rank ? records : std::vector<PointRecord<dim>>());
-      step.reinit(grid, points, basis_of_body);
-      auto reached = step.reached_nodes(grid.window());
-      ties.find(grid, step, threshold, reached);
-      nodes.reinit(grid, reached);
-      prescribe(conditions);
+      patch.reinit(points, [](std::vector<unsigned char> &) {});
     }
 
     /** Takes other node conditions. */
     void
     prescribe(const NodeConditions<dim> &new_conditions)
     {
-      conditions = new_conditions;
-      conditions.reinit(grid, nodes);
-      ties.localise(nodes, conditions);
+      patch.conditions = new_conditions;
+      patch.conditions.reinit(grid, nodes);
+      patch.ties.localise(nodes, patch.conditions);
+      patch.constraints.reinit(nodes, patch.conditions, ties, patch.n_components());
     }
 
     const LatticeWindow<dim> &
@@ -106,12 +107,25 @@ namespace kedge::test
     std::vector<PointRecord<dim>> records; ///< of all points, on all ranks
     BackgroundGrid<dim>           grid;
     MaterialPoints<dim>           points;
-    StepPoints<dim>               step;
-    ActiveNodes<dim>              nodes;
-    NodeConditions<dim>           conditions;
-    NodeTies<dim>                 ties; ///< of nodes with less than the threshold, in cells
+    Patch<dim>                    patch; ///< nodes below the threshold, in cells, are tied
+    StepPoints<dim>              &step;
+    ActiveNodes<dim>             &nodes;
+    NodeConditions<dim>          &conditions;
+    NodeTies<dim>                &ties;
 
   private:
+    static PatchParameters
+    patch_parameters(const std::vector<BasisKind> &basis_of_body,
+                     const double                  threshold,
+                     const unsigned int            n_components)
+    {
+      PatchParameters parameters;
+      parameters.basis_of_body    = basis_of_body;
+      parameters.smallest_filling = threshold;
+      parameters.n_components     = n_components;
+      return parameters;
+    }
+
     static std::array<unsigned int, dim>
     box()
     {

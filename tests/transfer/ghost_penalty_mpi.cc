@@ -32,11 +32,11 @@ namespace
       , basis(basis)
     {
       auto reached = this->step.reached_nodes(this->grid.window());
-      ghosts.find(this->grid, this->step, moduli, reached);
+      ghosts.find(this->patch, moduli, reached);
       this->nodes.reinit(this->grid, reached);
       jumps.reinit(this->nodes.n_local(), 1, 2);
       jumps.set_zero();
-      ghosts.add_mass(this->grid, this->nodes, 1., jumps);
+      ghosts.add_mass(this->patch, 1., jumps);
     }
 
     /** M_G x, whole at all local nodes. */
@@ -44,7 +44,7 @@ namespace
     product(const std::vector<double> &x) const
     {
       std::vector<double> y(x.size());
-      multiply(jumps, this->window(), this->nodes, dim, x, y);
+      multiply(jumps, this->patch, dim, x, y);
       this->nodes.add_to_owners(y, dim);
       return y;
     }
@@ -176,6 +176,8 @@ namespace
   {
     explicit ShiftedBlock(const double shift)
       : grid(some_grid<dim>(box()), MPI_COMM_WORLD)
+      , patch(grid, parameters(), {{}, {}})
+      , nodes(patch.nodes)
     {
       LatticeWindow<dim> block;
       for (int d = 0; d < dim; ++d)
@@ -209,12 +211,20 @@ namespace
         records.clear();
       grid.cover(block, std::vector<unsigned int>(block.n_cells_total(), 1));
       points.distribute(grid, records);
-      step.reinit(grid, points, {BasisKind::linear});
-      auto reached = step.reached_nodes(grid.window());
-      ghosts.find(grid, step, {1.}, reached);
-      nodes.reinit(grid, reached);
+      patch.reinit(points, [&](std::vector<unsigned char> &reached) {
+        ghosts.find(patch, {1.}, reached);
+      });
       mass.reinit(nodes.n_local(), 1, 2);
-      assemble_mass(step, grid.window(), nodes, mass);
+      assemble_mass(patch, mass);
+    }
+
+    static PatchParameters
+    parameters()
+    {
+      PatchParameters result;
+      result.basis_of_body = {BasisKind::linear};
+      result.n_components  = dim;
+      return result;
     }
 
     static std::array<unsigned int, dim>
@@ -260,8 +270,8 @@ namespace
 
     BackgroundGrid<dim> grid;
     MaterialPoints<dim> points;
-    StepPoints<dim>     step;
-    ActiveNodes<dim>    nodes;
+    Patch<dim>          patch;
+    ActiveNodes<dim>   &nodes;
     GhostPenalty<dim>   ghosts;
     NodeMatrix<dim>     mass;
   };
@@ -368,10 +378,10 @@ TYPED_TEST(TransferGhostMpi, StiffnessIsModulusOverSquareOfTheCellSize)
     NodeMatrix<dim> stiffness;
     stiffness.reinit(cloud.nodes.n_local(), 1, 2);
     stiffness.set_zero();
-    cloud.ghosts.add_stiffness(cloud.grid, cloud.nodes, 3., stiffness);
+    cloud.ghosts.add_stiffness(cloud.patch, 3., stiffness);
     const auto          x = cloud.random_nodal(1., 1, 1);
     std::vector<double> Kx(x.size());
-    multiply(stiffness, cloud.window(), cloud.nodes, 1, x, Kx);
+    multiply(stiffness, cloud.patch, 1, x, Kx);
     double energy = 0., expected = 0.;
     for (unsigned int i = 0; i < x.size(); ++i)
       energy += x[i] * Kx[i];
@@ -415,19 +425,16 @@ TYPED_TEST(TransferGhostMpi, BoundTheConditionOfTheMass)
     {
       const ShiftedBlock<dim> block(0.25 + xi);
       NodeMatrix<dim>         ghosted = block.mass;
-      block.ghosts.add_mass(block.grid,
-                            block.nodes,
-                            StabilisationParameters().ghost_mass_factor,
-                            ghosted);
+      block.ghosts.add_mass(block.patch, StabilisationParameters().ghost_mass_factor, ghosted);
       const double none = block.condition(block.mass), ghost = block.condition(ghosted);
       // corner nodes have m N^2 with N = xi^dim; the penalty, 1e-6 of a full
       // cell's mass, does not know xi: 1e8 leaves a factor of 100 to its eigenvalues
       EXPECT_GT(none, 1. / (xi * xi * xi * xi));
       EXPECT_LT(ghost, 1e8);
       EXPECT_LT(ghost, none / 100.);
-      EXPECT_LT(lumped_mass_ratio(block.nodes, block.mass), badly_conditioned_mass);
+      EXPECT_LT(lumped_mass_ratio(block.patch, block.mass), badly_conditioned_mass);
     }
   // well-filled cells: points in the middle of their halves
   const ShiftedBlock<dim> aligned(0.);
-  EXPECT_GT(lumped_mass_ratio(aligned.nodes, aligned.mass), badly_conditioned_mass);
+  EXPECT_GT(lumped_mass_ratio(aligned.patch, aligned.mass), badly_conditioned_mass);
 }

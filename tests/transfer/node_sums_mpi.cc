@@ -38,7 +38,7 @@ namespace
   {
     NodeMatrix<dim> mass;
     mass.reinit(cloud.nodes.n_local(), 1, 2);
-    assemble_mass(cloud.step, cloud.window(), cloud.nodes, mass);
+    assemble_mass(cloud.patch, mass);
     blend_mass(epsilon, mass, cloud.nodes.n_local());
     return mass;
   }
@@ -75,7 +75,7 @@ TYPED_TEST(TransferMpi, MassTimesAFieldIsTheDenseProduct)
       {
         const auto          x = cloud.random_nodal(1., 4);
         std::vector<double> y(x.size());
-        multiply(effective_mass(cloud, epsilon), cloud.window(), cloud.nodes, dim, x, y);
+        multiply(effective_mass(cloud, epsilon), cloud.patch, dim, x, y);
         cloud.nodes.add_to_owners(y, dim);
         const auto all_x = by_window(cloud, x, dim), all_y = by_window(cloud, y, dim);
         for (std::size_t A = 0; A < dense.n_nodes; ++A)
@@ -101,13 +101,8 @@ TYPED_TEST(TransferMpi, SumsToNodesAndBackAreTheDenseOnes)
   for_all_bases<dim>([](const Cloud<dim> &cloud, const DenseCloud<dim> &dense) {
     std::vector<double> momentum(cloud.nodes.n_local() * dim, 0.),
       lumped(cloud.nodes.n_local(), 0.);
-    add_to_nodes(cloud.step,
-                 cloud.window(),
-                 cloud.nodes,
-                 cloud.step.mass,
-                 cloud.step.velocity,
-                 momentum);
-    add_scalars_to_nodes(cloud.step, cloud.window(), cloud.nodes, cloud.step.mass, 1, lumped);
+    add_to_nodes(cloud.patch, cloud.step.mass, cloud.step.velocity, momentum);
+    add_scalars_to_nodes(cloud.patch, cloud.step.mass, 1, lumped);
     cloud.nodes.add_to_owners(momentum, dim);
     cloud.nodes.add_to_owners(lumped, 1);
     const auto all_momentum = by_window(cloud, momentum, dim);
@@ -133,7 +128,7 @@ TYPED_TEST(TransferMpi, SumsToNodesAndBackAreTheDenseOnes)
     cloud.nodes.update_ghosts(nodal, dim);
     const auto                          all = by_window(cloud, nodal, dim);
     std::vector<dealii::Tensor<1, dim>> at_points;
-    interpolate_to_points(cloud.step, cloud.window(), cloud.nodes, nodal, at_points);
+    interpolate_to_points(cloud.patch, nodal, at_points);
     for (unsigned int slot = 0; slot < cloud.step.size(); ++slot)
       for (int d = 0; d < dim; ++d)
         {
@@ -156,7 +151,7 @@ TYPED_TEST(TransferMpi, GradientsOfLinearFieldsAreExact)
         for (int j = 0; j < dim; ++j)
           nodal[i * dim + c] += (1 + c + 3 * j) * cloud.node_position(i)[j];
     std::vector<dealii::Tensor<2, dim>> gradients;
-    gradients_at_points(cloud.step, cloud.window(), cloud.nodes, nodal, gradients);
+    gradients_at_points(cloud.patch, nodal, gradients);
     for (const auto &gradient : gradients)
       for (int c = 0; c < dim; ++c)
         for (int j = 0; j < dim; ++j) // values of 50 over cells of 0.5
@@ -174,8 +169,8 @@ TYPED_TEST(TransferMpi, EquationsAreTheDenseMatrixOfTheFreeNodes)
       if (cloud.nodes.window_node(i) % 5 == 0)
         status[i] = NodalStatus::prescribed;
     EquationSystem<dim> equations;
-    equations.reinit(cloud.grid, cloud.nodes, cloud.ties, status, mass);
-    equations.fill(cloud.nodes, mass);
+    equations.reinit(cloud.patch, status, mass);
+    equations.fill(cloud.patch, mass);
 
     // window numbers of all equations, rank after rank
     const SparseSystem       &system = equations.system();

@@ -1,6 +1,6 @@
 // Histories of points in the lanes of packs: by the schema, whatever the law.
-#include <kedge/materials/material.h>
 #include <kedge/fields/point_packs.h>
+#include <kedge/materials/material.h>
 
 #include <gtest/gtest.h>
 

@@ -26,22 +26,17 @@ namespace
       , v(momentum)
     {
       mass.reinit(cloud.nodes.n_local(), 1, 2);
-      assemble_mass(cloud.step, cloud.window(), cloud.nodes, mass);
+      assemble_mass(cloud.patch, mass);
       blend_mass(epsilon, mass, cloud.nodes.n_local());
-      add_to_nodes(cloud.step,
-                   cloud.window(),
-                   cloud.nodes,
-                   cloud.step.mass,
-                   cloud.step.velocity,
-                   momentum);
+      add_to_nodes(cloud.patch, cloud.step.mass, cloud.step.velocity, momentum);
       cloud.ties.restrict_sums(momentum);
       cloud.nodes.add_to_owners(momentum, dim);
       for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
         for (int d = 0; d < dim; ++d)
           if (cloud.conditions.prescribed(i, d))
             v[i * dim + d] = prescribed;
-      mapping.reinit(cloud.grid, cloud.nodes, cloud.conditions, cloud.ties, mass, true);
-      status = mapping.solve(cloud.grid, cloud.nodes, cloud.ties, mass, momentum, v);
+      mapping.reinit(cloud.patch, mass);
+      status = mapping.solve(momentum, v);
     }
 
     /** C^T M~ v - momentum at the owned nodes. */
@@ -49,7 +44,7 @@ namespace
     defect(const Cloud<dim> &cloud) const
     {
       std::vector<double> result(v.size());
-      multiply(mass, cloud.window(), cloud.nodes, dim, v, result);
+      multiply(mass, cloud.patch, dim, v, result);
       cloud.ties.restrict_sums(result);
       cloud.nodes.add_to_owners(result, dim);
       for (std::size_t i = 0; i < result.size(); ++i)
@@ -72,8 +67,8 @@ namespace
                 const std::vector<double> &v_np1)
   {
     std::vector<dealii::Tensor<1, dim>> old, result;
-    interpolate_to_points(cloud.step, cloud.window(), cloud.nodes, v_n, old);
-    interpolate_to_points(cloud.step, cloud.window(), cloud.nodes, v_np1, result);
+    interpolate_to_points(cloud.patch, v_n, old);
+    interpolate_to_points(cloud.patch, v_np1, result);
     if (update == VelocityUpdate::flip)
       for (unsigned int p = 0; p < result.size(); ++p)
         result[p] += cloud.step.velocity[p] - old[p];
@@ -210,7 +205,7 @@ TYPED_TEST(TransferVelocityMpi, BearsASingularMass)
         }
       // so many unknowns can follow every point: nothing is filtered out
       std::vector<dealii::Tensor<1, dim>> at_points;
-      interpolate_to_points(cloud.step, cloud.window(), cloud.nodes, mapped.v, at_points);
+      interpolate_to_points(cloud.patch, mapped.v, at_points);
       for (unsigned int p = 0; p < cloud.step.size(); ++p)
         EXPECT_LT((at_points[p] - cloud.step.velocity[p]).norm(), 1e-6);
     }
@@ -224,9 +219,7 @@ TYPED_TEST(TransferVelocityMpi, LosesWhatTable31Says)
       {
         const Mapped<dim> mapped(cloud, epsilon);
         const auto        zero  = std::vector<double>(mapped.v.size(), 0.);
-        const auto        audit = audit_transfer(cloud.grid,
-                                          cloud.nodes,
-                                          cloud.step,
+        const auto        audit = audit_transfer(cloud.patch,
                                           cloud.step.velocity,
                                           mapped.mass,
                                           epsilon,
@@ -282,9 +275,7 @@ TYPED_TEST(TransferVelocityMpi, LosesWhatTable32Says)
           cloud.ties.prolong(change);
           for (std::size_t i = 0; i < v_np1.size(); ++i)
             v_np1[i] += change[i];
-          const auto        audit = audit_transfer(cloud.grid,
-                                            cloud.nodes,
-                                            cloud.step,
+          const auto        audit = audit_transfer(cloud.patch,
                                             grid_to_point(cloud, update, mapped.v, v_np1),
                                             mapped.mass,
                                             epsilon,

@@ -3,7 +3,7 @@
 
 #include <kedge/equations/node_matrix.h>
 #include <kedge/equations/tied_rows.h>
-#include <kedge/fields/active_nodes.h>
+#include <kedge/fields/patch.h>
 #include <kedge/solvers/sparse_system.h>
 
 namespace kedge
@@ -24,15 +24,13 @@ namespace kedge
      * @param matrix gives components and slots; its values are not read
      */
     void
-    reinit(const BackgroundGrid<dim>      &grid,
-           const ActiveNodes<dim>         &nodes,
-           const NodeTies<dim>            &ties,
+    reinit(const Patch<dim>               &patch,
            const std::vector<NodalStatus> &status,
            const NodeMatrix<dim>          &matrix);
 
     /** Copies the values into system(), shares of all ranks added up (collective). */
     void
-    fill(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &matrix);
+    fill(const Patch<dim> &patch, const NodeMatrix<dim> &matrix);
 
     /** Equations owned here of a nodal vector. */
     void
@@ -94,13 +92,11 @@ namespace kedge
     };
 
     void
-    number_equations(const ActiveNodes<dim> &nodes, const std::vector<NodalStatus> &status);
+    number_equations(const Patch<dim> &patch, const std::vector<NodalStatus> &status);
     std::vector<std::int64_t>
-    neighbour_equations(const BackgroundGrid<dim> &grid,
-                        const ActiveNodes<dim>    &nodes,
-                        const NodeMatrix<dim>     &matrix) const;
+    neighbour_equations(const Patch<dim> &patch, const NodeMatrix<dim> &matrix) const;
     void
-    find_fed_nodes(const ActiveNodes<dim> &nodes);
+    find_fed_nodes(const Patch<dim> &patch);
     void
     add_tied_blocks(const FedNode &fed, Blocks &blocks);
     void
@@ -108,9 +104,9 @@ namespace kedge
     static void
     sort_and_merge(Blocks &blocks);
     std::vector<RemoteBlock>
-    exchange_remote_rows(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes);
+    exchange_remote_rows(const Patch<dim> &patch);
     void
-    build_rows(const ActiveNodes<dim>          &nodes,
+    build_rows(const Patch<dim>                &patch,
                const std::vector<std::int64_t> &columns,
                const unsigned int               n_slots,
                const std::vector<RemoteBlock>  &remote);

@@ -1,8 +1,7 @@
 #ifndef kedge_equations_node_matrix_h
 #define kedge_equations_node_matrix_h
 
-#include <kedge/fields/active_nodes.h>
-#include <kedge/fields/step_points.h>
+#include <kedge/fields/patch.h>
 
 namespace kedge
 {
@@ -139,16 +138,17 @@ namespace kedge
   /** Calls visit(slot, local node) for the active nodes at all slots of a local node's row. */
   template <int dim, typename Visit>
   inline void
-  for_neighbours(const LatticeWindow<dim> &window,
-                 const ActiveNodes<dim>   &nodes,
-                 const unsigned int        node,
-                 const NodeMatrix<dim>    &matrix,
-                 const Visit              &visit)
+  for_neighbours(const Patch<dim>      &patch,
+                 const unsigned int     node,
+                 const NodeMatrix<dim> &matrix,
+                 const Visit           &visit)
   {
-    const auto here    = window.node_index(nodes.window_node(node));
-    const auto strides = window.node_strides();
-    const int  radius = matrix.radius(), width = 2 * radius + 1;
-    int        low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    const auto &window  = patch.window();
+    const auto &nodes   = patch.nodes;
+    const auto  here    = window.node_index(nodes.window_node(node));
+    const auto  strides = window.node_strides();
+    const int   radius = matrix.radius(), width = 2 * radius + 1;
+    int         low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     for (int d = 0; d < dim; ++d)
       {
         low[d]  = std::max(-radius, window.low[d] - here[d]);

@@ -35,9 +35,7 @@ namespace kedge
 
     /** Finds rows, columns and feeds; linear in the couplings of tied nodes. */
     void
-    reinit(const LatticeWindow<dim>       &window,
-           const ActiveNodes<dim>         &nodes,
-           const NodeTies<dim>            &ties,
+    reinit(const Patch<dim>               &patch,
            const std::vector<NodalStatus> &status,
            const NodeMatrix<dim>          &matrix);
 
@@ -98,9 +96,7 @@ namespace kedge
     }
 
     void
-    add_row(const LatticeWindow<dim> &window,
-            const ActiveNodes<dim>   &nodes,
-            const NodeTies<dim>      &ties,
+    add_row(const Patch<dim>         &patch,
             const std::vector<Parts> &parts,
             const NodeMatrix<dim>    &matrix,
             const unsigned int        node,

@@ -2,6 +2,7 @@
 #define kedge_io_checkpoint_h
 
 #include <kedge/io/run_folder.h>
+#include <kedge/io/scene_settings.h>
 #include <kedge/points/point_state.h>
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace kedge
   template <int dim>
   struct CheckpointData
   {
-    std::string                                scene_fingerprint; ///< alike on all ranks
+    SceneSettings                              settings; ///< of the scene, alike on all ranks
     unsigned int                               n_ranks = 1;
     std::map<std::string, double>              scalars;  ///< clock, books
     std::map<std::string, std::uint64_t>       counters; ///< steps, file positions
@@ -45,11 +46,11 @@ namespace kedge
     /**
      * The newest whole state. Says in the log which one it took and why it
      * passed over newer ones. Collective. Throws UserError if there is none,
-     * all are damaged, or it belongs to another scene, dimension or number of
-     * ranks.
+     * all are damaged, it has another dimension or number of ranks, or belongs to a scene
+     * that differs from @p settings in more than may_change_on_resume().
      */
     CheckpointData<dim>
-    read_latest(const std::string &scene_fingerprint);
+    read_latest(const SceneSettings &settings);
 
   private:
     void
@@ -60,10 +61,6 @@ namespace kedge
     std::uint64_t                next = 1;
     std::optional<std::uint64_t> last_good;
   };
-
-  /** A short text that differs between scenes: CRC-32 and length of @p scene_text. */
-  std::string
-  fingerprint(const std::string &scene_text);
 } // namespace kedge
 
 #endif

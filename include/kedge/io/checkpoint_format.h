@@ -14,7 +14,7 @@ namespace kedge
   crc32_of(const std::string &content);
 
   /**
-   * What a rank's file of a checkpoint holds: all but the fingerprint and the
+   * What a rank's file of a checkpoint holds: all but the
    * number of ranks, doubles as they stand in memory.
    */
   template <int dim>
@@ -38,7 +38,6 @@ namespace kedge
 
     unsigned int      dim            = 0;
     unsigned int      n_state_values = 0; ///< of a material point: the layout of PointState
-    std::string       scene_fingerprint;  ///< one line
     std::vector<File> files;              ///< by rank
 
     std::string

@@ -1,8 +1,8 @@
 #ifndef kedge_io_summary_h
 #define kedge_io_summary_h
 
-#include <kedge/io/check_result.h>
 #include <kedge/equations/ledger.h>
+#include <kedge/io/check_result.h>
 #include <kedge/io/history_row.h>
 #include <kedge/io/run_folder.h>
 
@@ -44,7 +44,7 @@ namespace kedge
 
     std::vector<Ledger::Column> columns; ///< of the books in final_row
     HistoryRow                  final_row;
-    std::vector<CheckResult> checks;
+    std::vector<CheckResult>    checks;
   };
 
   /** The text of summary.json. */

@@ -62,39 +62,30 @@ namespace kedge
      * @param outflow grows by the volume that leaves each surface [m^3]
      */
     PointStatus
-    add_residual(const StepPoints<dim>    &points,
-                 const PorePoints<dim>    &pores,
-                 const LatticeWindow<dim> &window,
-                 const ActiveNodes<dim>   &nodes,
-                 const PorousTrial<dim>   &trial,
-                 std::vector<double>      &residual,
-                 std::vector<double>      &outflow,
-                 PorousSize               &size) const;
+    add_residual(const Patch<dim>       &patch,
+                 const PorePoints<dim>  &pores,
+                 const PorousTrial<dim> &trial,
+                 std::vector<double>    &residual,
+                 std::vector<double>    &outflow,
+                 PorousSize             &size) const;
 
     /** Adds d residual / d unknowns to @p tangent, a matrix with dim + 1 components. */
     void
-    add_tangent(const StepPoints<dim>    &points,
-                const PorePoints<dim>    &pores,
-                const LatticeWindow<dim> &window,
-                const ActiveNodes<dim>   &nodes,
-                const PorousTrial<dim>   &trial,
-                NodeMatrix<dim>          &tangent) const;
+    add_tangent(const Patch<dim>       &patch,
+                const PorePoints<dim>  &pores,
+                const PorousTrial<dim> &trial,
+                NodeMatrix<dim>        &tangent) const;
 
     /** The pores of all points at the end of a step that add_residual() could follow. */
     void
-    evaluate_updates(const StepPoints<dim>        &points,
+    evaluate_updates(const Patch<dim>             &patch,
                      const PorePoints<dim>        &pores,
-                     const LatticeWindow<dim>     &window,
-                     const ActiveNodes<dim>       &nodes,
                      const PorousTrial<dim>       &trial,
                      std::vector<PoreUpdate<dim>> &updates) const;
 
     /** (N - N^0) p of all points for a nodal pressure, one value per local node [Pa]. */
     static std::vector<double>
-    fluctuations(const StepPoints<dim>     &points,
-                 const LatticeWindow<dim>  &window,
-                 const ActiveNodes<dim>    &nodes,
-                 const std::vector<double> &nodal_pressure);
+    fluctuations(const Patch<dim> &patch, const std::vector<double> &nodal_pressure);
 
     const std::vector<Soil> &
     soils() const
@@ -112,12 +103,10 @@ namespace kedge
     /** Calls run(PorousBatch) for all batches until it returns false. */
     template <class Run>
     void
-    for_batches(const StepPoints<dim>    &points,
-                const PorePoints<dim>    &pores,
-                const LatticeWindow<dim> &window,
-                const ActiveNodes<dim>   &nodes,
-                const PorousTrial<dim>   &trial,
-                const Run                &run) const;
+    for_batches(const Patch<dim>       &patch,
+                const PorePoints<dim>  &pores,
+                const PorousTrial<dim> &trial,
+                const Run              &run) const;
 
     std::vector<Material> material_of_body;
     std::vector<Soil>     soil_of_body;

@@ -18,14 +18,9 @@ namespace kedge
   class PressureBlocks
   {
   public:
-    /** Takes a new pattern (collective); @p status has dim + 1 entries per local node. */
+    /** Takes a new pattern (collective). */
     void
-    reinit(const BackgroundGrid<dim>      &grid,
-           const ActiveNodes<dim>         &nodes,
-           const NodeTies<dim>            &ties,
-           const std::vector<NodalStatus> &status,
-           const EquationSystem<dim>      &equations,
-           const int                       radius);
+    reinit(const Patch<dim> &patch, const EquationSystem<dim> &equations, const int radius);
 
     /**
      * Sums over the points (collective).
@@ -35,9 +30,7 @@ namespace kedge
      * @param inertia_factor c du/da, 0 without inertia [s^2]
      */
     void
-    assemble(const StepPoints<dim>     &points,
-             const LatticeWindow<dim>  &window,
-             const ActiveNodes<dim>    &nodes,
+    assemble(const Patch<dim>          &patch,
              const std::vector<double> &modulus_of_body,
              const double               stiffness_factor,
              const double               inertia_factor);

@@ -1,9 +1,8 @@
 #ifndef kedge_porous_pressure_mapping_h
 #define kedge_porous_pressure_mapping_h
 
-#include <kedge/fields/node_ties.h>
 #include <kedge/porous/parameters.h>
-#include <kedge/transfer/node_sums.h>
+#include <kedge/transfer/mass_system.h>
 
 namespace kedge
 {
@@ -30,32 +29,13 @@ namespace kedge
      * @param radius   how far a point couples nodes
      */
     void
-    map(const StepPoints<dim>     &points,
-        const LatticeWindow<dim>  &window,
-        const ActiveNodes<dim>    &nodes,
-        const NodeTies<dim>       &ties,
+    map(const Patch<dim>          &patch,
         const std::vector<double> &pressure,
         const int                  radius,
-        std::vector<double>       &unknowns);
+        std::vector<double>       &unknowns) const;
 
   private:
-    void
-    map_lumped(const ActiveNodes<dim> &nodes, const NodeTies<dim> &ties, std::vector<double> &sums);
-    void
-    improve(const LatticeWindow<dim> &window,
-            const ActiveNodes<dim>   &nodes,
-            const NodeTies<dim>      &ties);
-    void
-    multiply_volumes(const LatticeWindow<dim> &window,
-                     const ActiveNodes<dim>   &nodes,
-                     const NodeTies<dim>      &ties,
-                     std::vector<double>      &x,
-                     std::vector<double>      &y) const;
-
-    const PressureMap   kind;
-    NodeMatrix<dim>     volumes; ///< Omega of this rank
-    std::vector<double> nodal, right_side;
-    std::vector<double> weights; ///< Omega, lumped [m^3]
+    const PressureMap kind;
   };
 } // namespace kedge
 

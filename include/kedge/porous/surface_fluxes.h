@@ -2,7 +2,7 @@
 #define kedge_porous_surface_fluxes_h
 
 #include <kedge/base/load_program.h>
-#include <kedge/fields/active_nodes.h>
+#include <kedge/fields/patch.h>
 #include <kedge/porous/parameters.h>
 #include <kedge/surfaces/surface_faces.h>
 
@@ -27,12 +27,10 @@ namespace kedge
      * sums. The functions of the nodes are taken at the face, N_A + g_A.offset.
      */
     void
-    add_supply(const StepPoints<dim>    &points,
-               const LatticeWindow<dim> &window,
-               const ActiveNodes<dim>   &nodes,
-               const double              t,
-               const double              dt,
-               std::vector<double>      &supply) const;
+    add_supply(const Patch<dim>    &patch,
+               const double         t,
+               const double         dt,
+               std::vector<double> &supply) const;
 
   private:
     const LoadProgram       program;

@@ -58,6 +58,10 @@ namespace kedge
     std::string
     print() const;
 
+    /** All values, defaults included, by their full names: "Materials/clay/Density". */
+    std::map<std::string, std::string>
+    settings() const;
+
   private:
     void
     check_sections() const;

@@ -48,6 +48,7 @@ namespace kedge
     std::vector<ProbeParameters<dim>>         probes;
     std::vector<CheckParameters>              checks;
     std::string parameters; ///< all values used, as a scene file that runs again as it is
+    std::map<std::string, std::string> settings; ///< the same, by full names
   };
 } // namespace kedge
 

@@ -12,13 +12,11 @@ namespace kedge
     template <int dim>
     struct BatchContext
     {
-      const StepPoints<dim>                 &points;
-      const LatticeWindow<dim>              &window;
-      const ActiveNodes<dim>                &nodes;
+      const Patch<dim>                      &patch;
       const std::vector<double>             &displacement; ///< or more values per node, it first
       const typename StepPoints<dim>::Batch &batch;
       double                                 alpha;
-      const GroupDilatation                 *dilatation; ///< if points.is_grouped(batch)
+      const GroupDilatation                 *dilatation; ///< if patch.points.is_grouped(batch)
     };
 
     /**

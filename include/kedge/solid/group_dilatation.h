@@ -38,9 +38,7 @@ namespace kedge
    */
   template <int dim>
   PointStatus
-  evaluate_group_dilatation(const StepPoints<dim>     &points,
-                            const LatticeWindow<dim>  &window,
-                            const ActiveNodes<dim>    &nodes,
+  evaluate_group_dilatation(const Patch<dim>          &patch,
                             const std::vector<double> &displacement,
                             const double               fraction,
                             GroupDilatation           &result);
@@ -56,9 +54,7 @@ namespace kedge
   add_group_stiffness(const std::vector<Material> &materials,
                       const StressRule             rule,
                       const double                 alpha,
-                      const StepPoints<dim>       &points,
-                      const LatticeWindow<dim>    &window,
-                      const ActiveNodes<dim>      &nodes,
+                      const Patch<dim>            &patch,
                       const std::vector<double>   &displacement,
                       NodeMatrix<dim>             &stiffness);
 } // namespace kedge

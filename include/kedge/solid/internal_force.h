@@ -48,9 +48,7 @@ namespace kedge
      * Stops at the first point that fails.
      */
     PointStatus
-    add_force(const StepPoints<dim>     &points,
-              const LatticeWindow<dim>  &window,
-              const ActiveNodes<dim>    &nodes,
+    add_force(const Patch<dim>          &patch,
               const std::vector<double> &displacement,
               std::vector<double>       &force) const;
 
@@ -59,9 +57,7 @@ namespace kedge
      * for which add_force() succeeded.
      */
     void
-    add_stiffness(const StepPoints<dim>     &points,
-                  const LatticeWindow<dim>  &window,
-                  const ActiveNodes<dim>    &nodes,
+    add_stiffness(const Patch<dim>          &patch,
                   const std::vector<double> &displacement,
                   NodeMatrix<dim>           &stiffness) const;
 
@@ -85,9 +81,7 @@ namespace kedge
 
   private:
     PointStatus
-    evaluate_groups(const StepPoints<dim>     &points,
-                    const LatticeWindow<dim>  &window,
-                    const ActiveNodes<dim>    &nodes,
+    evaluate_groups(const Patch<dim>          &patch,
                     const std::vector<double> &displacement,
                     GroupDilatation           &dilatation) const;
 

@@ -16,9 +16,7 @@ namespace kedge
   template <int dim>
   unsigned int
   evaluate_point_updates(const std::vector<Material>   &materials,
-                         const StepPoints<dim>         &points,
-                         const LatticeWindow<dim>      &window,
-                         const ActiveNodes<dim>        &nodes,
+                         const Patch<dim>              &patch,
                          const std::vector<double>     &displacement,
                          std::vector<PointUpdate<dim>> &updates);
 

@@ -19,7 +19,7 @@ namespace kedge
 
       LanesOfPoints(const BatchContext<dim> &context)
         : context(context)
-        , offsets(node_offsets<dim, pattern>(context.window.node_strides()))
+        , offsets(node_offsets<dim, pattern>(context.patch.window().node_strides()))
       {}
 
       /** Reads the points; after each calls also(lane, whether nodal has changed). */
@@ -29,7 +29,7 @@ namespace kedge
       {
         for (unsigned int lane = 0; lane < slots.count; ++lane)
           {
-            const Stencil<dim> &stencil   = context.points.stencil[slots.begin + lane];
+            const Stencil<dim> &stencil   = context.patch.points.stencil[slots.begin + lane];
             const bool          new_nodes = stencil.first_node != last_node;
             if (new_nodes)
               read_nodes(stencil.first_node);
@@ -65,7 +65,7 @@ namespace kedge
       bool
       is_last(const unsigned int slot) const
       {
-        const auto &stencil = context.points.stencil;
+        const auto &stencil = context.patch.points.stencil;
         return slot + 1 == context.batch.end ||
                stencil[slot + 1].first_node != stencil[slot].first_node;
       }
@@ -82,7 +82,7 @@ namespace kedge
         last_node = first_node;
         for (int A = 0; A < n; ++A)
           {
-            last_local[A]   = context.nodes.local(first_node + offsets[A]);
+            last_local[A]   = context.patch.nodes.local(first_node + offsets[A]);
             const double *u = &context.displacement[std::size_t(last_local[A]) * n_components];
             for (int d = 0; d < n_components; ++d)
               nodal[d][A] = u[d];

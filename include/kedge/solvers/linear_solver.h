@@ -42,6 +42,7 @@ namespace kedge
     bool positive_definite    = false; ///< symmetric positive definite
     bool dominated_by_inertia = false; ///< well conditioned: ILU will do
     bool mixed                = false; ///< displacements and pressures
+    bool multipliers          = false; ///< some rows have no diagonal: direct methods only
   };
 
   /**
@@ -49,7 +50,8 @@ namespace kedge
    * band Cholesky or band LU for narrow matrices, UMFPACK for others, GMRES
    * with ILU(0) or algebraic multigrid (ML) for large ones, by blocks if they
    * mix displacements and pressures. GMRES works on all ranks. Rows and columns are scaled by
-   * 1/sqrt|diagonal| first, so that nodes of little mass do no harm. Direct
+   * 1/sqrt|diagonal| first, so that nodes of little mass do no harm; those of multipliers, which
+   * have none, by what their couplings are then, and only direct methods take them. Direct
    * methods gather the system on rank 0. Chosen by `automatic`, an iterative
    * method that costs more than a direct one leaves the system to that.
    */

@@ -1,8 +1,8 @@
 #ifndef kedge_transfer_audit_h
 #define kedge_transfer_audit_h
 
-#include <kedge/fields/active_nodes.h>
 #include <kedge/equations/node_matrix.h>
+#include <kedge/fields/patch.h>
 #include <kedge/transfer/parameters.h>
 
 namespace kedge
@@ -83,9 +83,7 @@ namespace kedge
    */
   template <int dim>
   TransferAudit<dim>
-  audit_transfer(const BackgroundGrid<dim>                 &grid,
-                 const ActiveNodes<dim>                    &nodes,
-                 const StepPoints<dim>                     &points,
+  audit_transfer(const Patch<dim>                          &patch,
                  const std::vector<dealii::Tensor<1, dim>> &new_velocities,
                  const NodeMatrix<dim>                     &mass,
                  const double                               lumping,

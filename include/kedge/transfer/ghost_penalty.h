@@ -1,8 +1,8 @@
 #ifndef kedge_transfer_ghost_penalty_h
 #define kedge_transfer_ghost_penalty_h
 
-#include <kedge/fields/active_nodes.h>
 #include <kedge/equations/node_matrix.h>
+#include <kedge/fields/patch.h>
 
 namespace kedge
 {
@@ -66,27 +66,20 @@ namespace kedge
      * @param modulus_of_body Young's moduli [Pa]
      */
     void
-    find(const BackgroundGrid<dim>  &grid,
-         const StepPoints<dim>      &points,
+    find(const Patch<dim>           &patch,
          const std::vector<double>  &modulus_of_body,
          std::vector<unsigned char> &reached);
 
     /** Adds this rank's share of M_G = factor rho J_G [kg]; the matrix must have radius 2. */
     void
-    add_mass(const BackgroundGrid<dim> &grid,
-             const ActiveNodes<dim>    &nodes,
-             const double               factor,
-             NodeMatrix<dim>           &mass) const;
+    add_mass(const Patch<dim> &patch, const double factor, NodeMatrix<dim> &mass) const;
 
     /**
      * Adds this rank's share of K_G = factor E / h^2 J_G [N/m]. Different from
      * (3.152), which lacks the 1/h^2 that makes it a stiffness.
      */
     void
-    add_stiffness(const BackgroundGrid<dim> &grid,
-                  const ActiveNodes<dim>    &nodes,
-                  const double               factor,
-                  NodeMatrix<dim>           &stiffness) const;
+    add_stiffness(const Patch<dim> &patch, const double factor, NodeMatrix<dim> &stiffness) const;
 
     /**
      * Adds this rank's share of factor/h^2 J_G: for a factor c kappa_0/(rho_0 g) the volume of
@@ -94,20 +87,16 @@ namespace kedge
      * from the print, which lacks the 1/(g h^2) as (3.152) lacks the 1/h^2.
      */
     void
-    add_gradient_penalty(const BackgroundGrid<dim> &grid,
-                         const ActiveNodes<dim>    &nodes,
-                         const double               factor,
-                         NodeMatrix<dim>           &matrix) const;
+    add_gradient_penalty(const Patch<dim> &patch,
+                         const double      factor,
+                         NodeMatrix<dim>  &matrix) const;
 
     /**
      * Adds this rank's share of factor J_G: for a factor c/K_f the volume of fluid that is
      * stored for a pressure, M_G^(f) of (4.176) over rho_0 [m^3/Pa].
      */
     void
-    add_value_penalty(const BackgroundGrid<dim> &grid,
-                      const ActiveNodes<dim>    &nodes,
-                      const double               factor,
-                      NodeMatrix<dim>           &matrix) const;
+    add_value_penalty(const Patch<dim> &patch, const double factor, NodeMatrix<dim> &matrix) const;
 
     /** The faces of this rank; each belongs to one rank. */
     const std::vector<GhostFace> &
@@ -118,8 +107,7 @@ namespace kedge
 
   private:
     void
-    add(const BackgroundGrid<dim>                      &grid,
-        const ActiveNodes<dim>                         &nodes,
+    add(const Patch<dim>                               &patch,
         const std::function<double(const GhostFace &)> &coefficient,
         NodeMatrix<dim>                                &matrix) const;
 
@@ -129,7 +117,7 @@ namespace kedge
   /** Smallest over largest row sum of a mass matrix [-] (collective). */
   template <int dim>
   double
-  lumped_mass_ratio(const ActiveNodes<dim> &nodes, const NodeMatrix<dim> &mass);
+  lumped_mass_ratio(const Patch<dim> &patch, const NodeMatrix<dim> &mass);
 } // namespace kedge
 
 #endif

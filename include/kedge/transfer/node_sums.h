@@ -1,7 +1,6 @@
 #ifndef kedge_transfer_node_sums_h
 #define kedge_transfer_node_sums_h
 
-#include <kedge/fields/active_nodes.h>
 #include <kedge/equations/node_matrix.h>
 
 namespace kedge
@@ -14,26 +13,17 @@ namespace kedge
   /** Consistent mass (3.118): M_AB = sum_p m N_A N_B, a NodeMatrix with one component [kg]. */
   template <int dim>
   void
-  assemble_mass(const StepPoints<dim>    &points,
-                const LatticeWindow<dim> &window,
-                const ActiveNodes<dim>   &nodes,
-                NodeMatrix<dim>          &mass);
+  assemble_mass(const Patch<dim> &patch, NodeMatrix<dim> &mass);
 
   /** The same sum with other weights than masses, one per slot. */
   template <int dim>
   void
-  assemble_mass(const StepPoints<dim>     &points,
-                const LatticeWindow<dim>  &window,
-                const ActiveNodes<dim>    &nodes,
-                const std::vector<double> &weights,
-                NodeMatrix<dim>           &mass);
+  assemble_mass(const Patch<dim> &patch, const std::vector<double> &weights, NodeMatrix<dim> &mass);
 
   /** sum_p w grad N_A . grad N_B, weights one per slot; a NodeMatrix with one component. */
   template <int dim>
   void
-  assemble_laplacian(const StepPoints<dim>     &points,
-                     const LatticeWindow<dim>  &window,
-                     const ActiveNodes<dim>    &nodes,
+  assemble_laplacian(const Patch<dim>          &patch,
                      const std::vector<double> &weights,
                      NodeMatrix<dim>           &laplacian);
 
@@ -51,9 +41,7 @@ namespace kedge
    */
   template <int dim>
   void
-  add_to_nodes(const StepPoints<dim>                     &points,
-               const LatticeWindow<dim>                  &window,
-               const ActiveNodes<dim>                    &nodes,
+  add_to_nodes(const Patch<dim>                          &patch,
                const std::vector<double>                 &weights,
                const std::vector<dealii::Tensor<1, dim>> &values,
                std::vector<double>                       &sums);
@@ -61,9 +49,7 @@ namespace kedge
   /** sum_p N_A s_p for n_values scalars per point, slot-major; added to @p sums. */
   template <int dim>
   void
-  add_scalars_to_nodes(const StepPoints<dim>     &points,
-                       const LatticeWindow<dim>  &window,
-                       const ActiveNodes<dim>    &nodes,
+  add_scalars_to_nodes(const Patch<dim>          &patch,
                        const std::vector<double> &values,
                        const unsigned int         n_values,
                        std::vector<double>       &sums);
@@ -71,18 +57,14 @@ namespace kedge
   /** v_p = sum_A N_A v_A for all slots. Ghost values must be up to date. */
   template <int dim>
   void
-  interpolate_to_points(const StepPoints<dim>               &points,
-                        const LatticeWindow<dim>            &window,
-                        const ActiveNodes<dim>              &nodes,
+  interpolate_to_points(const Patch<dim>                    &patch,
                         const std::vector<double>           &nodal,
                         std::vector<dealii::Tensor<1, dim>> &at_points);
 
   /** d v_i / dx_j, [i][j], for all slots. Ghost values must be up to date. */
   template <int dim>
   void
-  gradients_at_points(const StepPoints<dim>               &points,
-                      const LatticeWindow<dim>            &window,
-                      const ActiveNodes<dim>              &nodes,
+  gradients_at_points(const Patch<dim>                    &patch,
                       const std::vector<double>           &nodal,
                       std::vector<dealii::Tensor<2, dim>> &gradients);
 
@@ -93,20 +75,26 @@ namespace kedge
    */
   template <int dim>
   std::vector<unsigned int>
-  node_neighbours(const NodeMatrix<dim>    &matrix,
-                  const LatticeWindow<dim> &window,
-                  const ActiveNodes<dim>   &nodes);
+  node_neighbours(const NodeMatrix<dim> &matrix, const Patch<dim> &patch);
 
   /**
    * y = A x, dim values per local node, for a matrix with one component; see the
-   * other multiply().
+   * multiply() below.
    */
   template <int dim>
   void
-  multiply(const NodeMatrix<dim>           &matrix,
-           const std::vector<unsigned int> &neighbours,
-           const std::vector<double>       &x,
-           std::vector<double>             &y);
+  multiply_velocities(const NodeMatrix<dim>           &matrix,
+                      const std::vector<unsigned int> &neighbours,
+                      const std::vector<double>       &x,
+                      std::vector<double>             &y);
+
+  /** The same for the last of dim + 1 values per local node; others are left alone. */
+  template <int dim>
+  void
+  multiply_pressures(const NodeMatrix<dim>           &matrix,
+                     const std::vector<unsigned int> &neighbours,
+                     const std::vector<double>       &x,
+                     std::vector<double>             &y);
 
   /**
    * y = A x with this rank's share of the matrix: partial sums at all local
@@ -115,8 +103,7 @@ namespace kedge
   template <int dim>
   void
   multiply(const NodeMatrix<dim>     &matrix,
-           const LatticeWindow<dim>  &window,
-           const ActiveNodes<dim>    &nodes,
+           const Patch<dim>          &patch,
            const unsigned int         n_components,
            const std::vector<double> &x,
            std::vector<double>       &y);
