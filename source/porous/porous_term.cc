@@ -126,8 +126,8 @@ namespace kedge
   PorousTerm<dim>::activate(const MaterialPoints<dim> &cloud)
   {
     pores.reinit(cloud, patch.points, porous_force.scheme());
-    surfaces.reinit(cloud, patch.points);
-    fluxes.reinit(cloud, patch.points);
+    surfaces.reinit(cloud, patch);
+    fluxes.reinit(cloud, patch);
     blocks_have_pattern = blocks_have_pattern && !patch.new_pattern();
   }
 

@@ -18,16 +18,12 @@ namespace kedge
       void
       run() const
       {
-        const auto  offsets = node_offsets<dim, pattern>(patch.window().node_strides());
-        const auto &stencil = patch.points.stencil[face.slot];
-        const auto  basis   = expand<dim, pattern>(stencil);
+        const auto offsets = node_offsets<dim, pattern>(patch.window().node_strides());
+        const auto at_face = expand<dim, pattern>(face.functions);
         for (int A = 0; A < stencil_size<dim>(pattern); ++A)
           {
-            double value = basis.value[A];
-            for (int d = 0; d < dim; ++d)
-              value += basis.gradient[d][A] * face.offset[d];
-            const auto node = patch.nodes.local(stencil.first_node + offsets[A]);
-            supply[std::size_t(node) * (dim + 1) + dim] += volume * value;
+            const auto node = patch.nodes.local(face.functions.first_node + offsets[A]);
+            supply[std::size_t(node) * (dim + 1) + dim] += volume * at_face.value[A];
           }
       }
     };

@@ -13,7 +13,7 @@ namespace kedge
      * does not need):
      *   d_A += N_A(face) dt/rho_0 [ q.n + gamma (p(face) - p_s) ] da,
      *   gamma = penalty kappa_0/(g h).
-     * q is the flow at the point; N_A(face) = N_A + g_A.offset is linear too.
+     * q is the flow at the point; N_A(face) see functions_at_face().
      */
     template <int dim>
     struct SurfaceKernel
@@ -29,16 +29,12 @@ namespace kedge
         explicit Values(const SurfaceKernel &k)
           : slots(k.face.slot, k.face.slot + 1)
           , lanes(k.b)
+          , at_face(expand<dim, pattern>(k.face.functions))
         {
           lanes.read(slots);
           pressure = 0.;
           for (int A = 0; A < n; ++A)
-            {
-              at_face[A] = basis().value[A];
-              for (int R = 0; R < dim; ++R)
-                at_face[A] += basis().gradient[R][A] * k.face.offset[R];
-              pressure += at_face[A] * lanes.of_points.nodal[dim][A];
-            }
+            pressure += at_face.value[A] * lanes.of_points.nodal[dim][A];
         }
 
         const BasisValues<dim, n> &
@@ -55,7 +51,7 @@ namespace kedge
 
         PackOfSlots               slots; ///< the point alone, in lane 0
         PorousLanes<dim, pattern> lanes;
-        double                    at_face[n];
+        BasisValues<dim, n>       at_face; ///< its values
         double                    pressure;
       };
 
@@ -103,7 +99,7 @@ namespace kedge
           volume -= area[R] * r.fluid_gradient[R][0];
         outflow[this->face.surface] += volume;
         for (int A = 0; A < Values::n; ++A)
-          residual[std::size_t(v.local(A)) * (dim + 1) + dim] += v.at_face[A] * volume;
+          residual[std::size_t(v.local(A)) * (dim + 1) + dim] += v.at_face.value[A] * volume;
       }
     };
 
@@ -130,7 +126,7 @@ namespace kedge
         for (int B = 0; B < n; ++B)
           {
             const double N = v.basis().value[B];
-            slope[dim][B]  = penalty * v.at_face[B];
+            slope[dim][B]  = penalty * v.at_face.value[B];
             for (int R = 0; R < dim; ++R)
               {
                 double by_p = r.pp_weight[R][0] * N;
@@ -155,7 +151,7 @@ namespace kedge
           {
             for (int B = 0; B < n; ++B)
               for (int m = 0; m <= dim; ++m)
-                values[B * (dim + 1) + m] = v.at_face[A] * slope[m][B];
+                values[B * (dim + 1) + m] = v.at_face.value[A] * slope[m][B];
             add_to_row<dim, pattern, dim + 1>(rows[A], values, tangent.row(v.local(A), dim));
           }
       }

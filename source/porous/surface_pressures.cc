@@ -6,7 +6,7 @@ namespace kedge
   SurfacePressures<dim>::SurfacePressures(const std::vector<SurfacePressureParameters> &parameters,
                                           const std::map<std::string, double>          &constants,
                                           const LoadProgram                            &program)
-    : SurfaceFaces<dim>("Surface pressure", {parameters.begin(), parameters.end()}, constants)
+    : SurfaceLoads<dim>("Surface pressure", {parameters.begin(), parameters.end()}, constants)
     , program(program)
   {
     for (const auto &p : parameters)
@@ -28,15 +28,19 @@ namespace kedge
 
 
   template <int dim>
-  void
-  SurfacePressures<dim>::add_force(const StepPoints<dim> &,
-                                   const double                         t,
-                                   std::vector<dealii::Tensor<1, dim>> &forces) const
+  std::vector<dealii::Tensor<1, dim>>
+  SurfacePressures<dim>::forces(const double t) const
   {
-    const std::vector<double> p = pressures(t);
+    const std::vector<double>           p = pressures(t);
+    std::vector<dealii::Tensor<1, dim>> result;
     for (const auto &face : this->points())
-      for (int d = 0; d < dim; ++d)
-        forces[face.slot][d] -= p[face.surface] * face.area[d];
+      {
+        dealii::Tensor<1, dim> force;
+        for (int d = 0; d < dim; ++d)
+          force[d] = -p[face.surface] * face.area[d];
+        result.push_back(force);
+      }
+    return result;
   }
 
   template class SurfacePressures<2>;

@@ -242,7 +242,7 @@ namespace kedge
                  {"Where",
                   "",
                   allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-                  "Only material points where this is true at the start; empty: all."},
+                  "The part of the faces where this is true at the start; empty: all."},
                  {"Traction",
                   required,
                   allow.expressions({"t"}, "t"),

@@ -36,17 +36,18 @@ namespace kedge
         if (here.transfer)
           add_term(std::make_unique<InertiaTerm<dim>>(field, patch, here.transfer->mass(), scheme));
       }
-    auto &loads = add_term(std::make_unique<LoadTerm<dim>>(field,
-                                                           patch,
-                                                           ExternalLoads<dim>(scene.body_force,
-                                                                              bodies.has_body_force,
-                                                                              scene.point_loads,
-                                                                              scene.tractions,
-                                                                              scene.constants,
-                                                                              program),
-                                                           bodies.names,
-                                                           motion,
-                                                           scheme));
+    auto &loads = add_term(std::make_unique<LoadTerm<dim>>(
+      field,
+      patch,
+      ExternalLoads<dim>(scene.body_force,
+                         bodies.has_body_force,
+                         scene.point_loads,
+                         scene.constants,
+                         program),
+      SurfaceTractions<dim>(scene.tractions, scene.constants, program),
+      bodies.names,
+      motion,
+      scheme));
     add_term(std::make_unique<SupportTerm<dim>>(field, patch, scene.node_conditions));
 
     const GhostTerm<dim> *ghosts = nullptr;

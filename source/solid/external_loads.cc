@@ -44,20 +44,15 @@ namespace kedge
   ExternalLoads<dim>::ExternalLoads(const std::array<std::string, dim>          &body_force,
                                     const std::vector<bool>                     &has_body_force,
                                     const std::vector<PointLoadParameters<dim>> &point_loads,
-                                    const std::vector<TractionParameters<dim>>  &tractions,
                                     const std::map<std::string, double>         &constants,
                                     const LoadProgram                           &program)
     : body_force(functions_of_time<dim>(body_force, constants))
     , has_body_force(has_body_force)
     , point_loads(point_loads)
-    , tractions(tractions)
-    , constants(constants)
     , program(program)
   {
     for (const auto &load : point_loads)
       load_expressions.push_back(functions_of_time<dim>(load.force, constants));
-    for (const auto &traction : tractions)
-      load_expressions.push_back(functions_of_time<dim>(traction.traction, constants));
   }
 
 
@@ -70,8 +65,6 @@ namespace kedge
     shares.clear();
     for (unsigned int i = 0; i < point_loads.size(); ++i)
       attach_point_load(i, points, body_names);
-    for (unsigned int i = 0; i < tractions.size(); ++i)
-      attach_traction(i, points, body_names);
     for (auto &point : points)
       if (shares.count(point.record.id) > 0)
         point.record.state.loaded = 1.;
@@ -106,45 +99,6 @@ namespace kedge
                         nearest->record.state.reference_half_lengths);
     for (unsigned int i = 0; i < parameters.n_points; ++i)
       shares[candidates[i].second].push_back({load, 1. / parameters.n_points});
-  }
-
-
-
-  template <int dim>
-  void
-  ExternalLoads<dim>::attach_traction(const unsigned int                traction,
-                                      std::vector<GeneratedPoint<dim>> &points,
-                                      const std::vector<std::string>   &body_names)
-  {
-    const auto &parameters = tractions[traction];
-    const int   direction  = static_cast<int>(parameters.side / 2);
-    const auto  where      = parameters.where.empty()
-                               ? Expression(1.)
-                               : Expression(parameters.where, {"x", "y", "z"}, constants);
-    bool        any        = false;
-    for (const auto &point : points)
-      if (belongs(point, parameters.body, body_names) &&
-          ((point.exposed_sides >> parameters.side) & 1u) != 0)
-        {
-          const auto &state = point.record.state;
-          // the face's centre decides, not the point's
-          double x[3] = {0, 0, 0};
-          for (int d = 0; d < dim; ++d)
-            x[d] = point.record.location[d];
-          x[direction] +=
-            (parameters.side % 2 == 0 ? -1. : 1.) * state.reference_half_lengths[direction];
-          if (where(x) == 0.)
-            continue;
-          const double area =
-            state.reference_volume / (2. * state.reference_half_lengths[direction]);
-          shares[point.record.id].push_back(
-            {static_cast<unsigned int>(point_loads.size()) + traction, area});
-          any = true;
-        }
-    if (!any)
-      throw UserError("Traction '" + parameters.name +
-                      "' finds no exposed face: no material point of body '" + parameters.body +
-                      "' on the given side fulfils Where.");
   }
 
 

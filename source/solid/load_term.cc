@@ -7,15 +7,18 @@ namespace kedge
   LoadTerm<dim>::LoadTerm(const unsigned int              field,
                           const Patch<dim>               &patch,
                           const ExternalLoads<dim>       &loads,
+                          const SurfaceTractions<dim>    &tractions,
                           const std::vector<std::string> &body_names,
                           const MotionTerm<dim>          &motion,
                           const Scheme                   &scheme)
     : field(field)
     , patch(patch)
     , loads(loads)
+    , tractions(tractions)
     , body_names(body_names)
     , motion(motion)
     , scheme(scheme)
+    , on_faces{&this->tractions}
   {}
 
 
@@ -25,6 +28,16 @@ namespace kedge
   LoadTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &points)
   {
     loads.attach(points, body_names);
+    tractions.attach(points, body_names);
+  }
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::activate(const MaterialPoints<dim> &cloud)
+  {
+    tractions.reinit(cloud, patch);
   }
 
 
@@ -47,7 +60,7 @@ namespace kedge
   bool
   LoadTerm<dim>::empty() const
   {
-    return loads.empty() && std::all_of(others.begin(), others.end(), [](const auto *forces) {
+    return loads.empty() && std::all_of(on_faces.begin(), on_faces.end(), [](const auto *forces) {
              return forces->empty();
            });
   }
@@ -60,8 +73,6 @@ namespace kedge
   {
     std::vector<dealii::Tensor<1, dim>> forces(patch.points.size());
     loads.add_force(patch.points, t, forces);
-    for (const auto *other : others)
-      other->add_force(patch.points, t, forces);
     return forces;
   }
 
@@ -75,6 +86,8 @@ namespace kedge
     std::vector<double>       sums(std::size_t(patch.nodes.n_local()) * dim, 0.);
     const std::vector<double> ones(patch.points.size(), 1.);
     add_to_nodes(patch, ones, forces_at(t), sums);
+    for (const auto *surface : on_faces)
+      add_face_forces(patch, surface->points(), surface->forces(t), sums);
     patch.ties.restrict_sums(sums);
     patch.nodes.add_to_owners(sums, dim);
     return sums;
@@ -127,10 +140,16 @@ namespace kedge
   {
     if (empty())
       return;
-    double     sum    = 0.;
-    const auto forces = forces_at(trial.times.t_n + 0.5 * trial.times.dt);
+    double       sum    = 0.;
+    const double middle = trial.times.t_n + 0.5 * trial.times.dt;
+    const auto   forces = forces_at(middle);
     for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
       sum += forces[slot] * motion.displacements()[slot];
+    for (const auto *surface : on_faces)
+      sum += work_of_face_forces(patch,
+                                 surface->points(),
+                                 surface->forces(middle),
+                                 trial.displacement(field));
     ledger.book(work, sum);
   }
 

@@ -1,10 +1,19 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/surfaces/covered_part.h>
 #include <kedge/surfaces/surface_faces.h>
 
 #include <algorithm>
 
 namespace kedge
 {
+  namespace
+  {
+    /** Of a face: less is round-off of an edge that lies between two faces. */
+    constexpr double smallest_part = 1e-9;
+  } // namespace
+
+
+
   template <int dim>
   SurfaceFaces<dim>::SurfaceFaces(const std::string                    &what,
                                   const std::vector<SurfaceParameters> &parameters,
@@ -36,16 +45,16 @@ namespace kedge
             if (body_names[static_cast<unsigned int>(state.body)] != p.body ||
                 ((point.exposed_sides >> p.side) & 1u) == 0)
               continue;
-            // the face's centre decides, as with tractions
-            const double half = state.reference_half_lengths[direction];
-            double       x[3] = {0, 0, 0};
-            for (int d = 0; d < dim; ++d)
-              x[d] = point.record.location[d];
-            x[direction] += sign * half;
-            if (where(x) == 0.)
+            const double       half   = state.reference_half_lengths[direction];
+            dealii::Point<dim> centre = point.record.location;
+            centre[direction] += sign * half;
+            CoveredPart<dim> part =
+              covered_part(where, centre, direction, state.reference_half_lengths);
+            if (part.fraction < smallest_part)
               continue;
+            part.offset[direction] = sign * half;
             faces_of[point.record.id].push_back(
-              {s, state.reference_volume / (2. * half), sign * half});
+              {s, part.fraction * state.reference_volume / (2. * half), part.offset});
             state.loaded = 1.;
             any          = true;
           }
@@ -60,8 +69,9 @@ namespace kedge
 
   template <int dim>
   void
-  SurfaceFaces<dim>::reinit(const MaterialPoints<dim> &cloud, const StepPoints<dim> &points)
+  SurfaceFaces<dim>::reinit(const MaterialPoints<dim> &cloud, const Patch<dim> &patch)
   {
+    const StepPoints<dim> &points = patch.points;
     faces.clear();
     if (empty())
       return;
@@ -79,12 +89,18 @@ namespace kedge
       for (const Face &face : found->second)
         {
           const int         d = static_cast<int>(parameters[face.surface].side / 2);
-          SurfacePoint<dim> point{points.slot_of[number], face.surface, {}, {}};
+          SurfacePoint<dim> point{points.slot_of[number], face.surface, {}, {}, face.area, {}};
+          const dealii::Tensor<1, dim> offset = F * face.offset;
           for (int i = 0; i < dim; ++i)
             {
-              point.offset[i] = F[i][d] * face.offset;
-              point.area[i]   = cofactor[i][d] * std::copysign(face.area, face.offset);
+              point.offset[i] = offset[i];
+              point.area[i]   = cofactor[i][d] * std::copysign(face.area, face.offset[d]);
             }
+          point.functions = functions_at_face(patch,
+                                              point.slot,
+                                              patch.basis_of(static_cast<unsigned int>(state.body)),
+                                              point.offset,
+                                              point.area);
           faces.push_back(point);
         }
     });

@@ -62,7 +62,8 @@ namespace
     Problem(const Cloud<dim> &cloud, const Setting &setting, const bool plastic)
       : cloud(cloud)
       , setting(setting)
-      , points(cloud.step)
+      , patch(cloud.patch)
+      , points(patch.points)
       , force(materials(plastic),
               {some_soil(0), some_soil(1)},
               setting.alpha,
@@ -85,12 +86,18 @@ namespace
       constant = cloud.random_nodal(1., 3);
       for (unsigned int slot = 0; slot < points.size(); slot += 5)
         {
-          SurfacePoint<dim> face{slot, slot % 2, {}, {}};
+          SurfacePoint<dim> face{slot, slot % 2, {}, {}, 0., {}};
           for (int d = 0; d < dim; ++d)
             {
               face.offset[d] = random.uniform(-0.1, 0.1);
               face.area[d]   = random.uniform(-0.1, 0.1);
             }
+          const auto body =
+            std::find_if(points.batches.begin(), points.batches.end(), [&](const auto &batch) {
+              return slot < batch.end;
+            })->body;
+          face.functions =
+            functions_at_face(patch, slot, patch.basis_of(body), face.offset, face.area);
           faces.push_back(face);
         }
     }
@@ -137,7 +144,7 @@ namespace
       std::vector<double> result(x.size(), 0.);
       PorousSize          size;
       outflow.assign(2, 0.);
-      EXPECT_TRUE(force.add_residual(cloud.patch, pores, trial(x, a), result, outflow, size).ok());
+      EXPECT_TRUE(force.add_residual(patch, pores, trial(x, a), result, outflow, size).ok());
       // the terms bound what is left of them
       double left = 0.;
       for (unsigned int i = 0; i < result.size(); ++i)
@@ -167,7 +174,8 @@ namespace
 
     const Cloud<dim>              &cloud;
     const Setting                 &setting;
-    StepPoints<dim>                points;
+    Patch<dim>                     patch; ///< with histories
+    StepPoints<dim>               &points;
     PorousForce<dim>               force;
     PorePoints<dim>                pores;
     std::vector<double>            constant; ///< of the nodal accelerations
@@ -186,7 +194,7 @@ namespace
     tangent.reinit(cloud.nodes.n_local(), dim + 1, 2);
     tangent.set_zero();
     const auto a = problem.acceleration(x);
-    problem.force.add_tangent(cloud.patch, problem.pores, problem.trial(x, a), tangent);
+    problem.force.add_tangent(problem.patch, problem.pores, problem.trial(x, a), tangent);
     const std::vector<int> strides = tangent.slot_strides(cloud.window());
 
     const double h             = 1e-5;
@@ -268,7 +276,7 @@ TYPED_TEST(PorousForceTest, VolumeOfFluidChangesByItsContentAlone)
       expected = problem.outflow[0] + problem.outflow[1];
       EXPECT_NE(problem.outflow[0], 0.);
       std::vector<PoreUpdate<dim>> updates;
-      problem.force.evaluate_updates(cloud.patch, problem.pores, problem.trial(x, a), updates);
+      problem.force.evaluate_updates(problem.patch, problem.pores, problem.trial(x, a), updates);
       for (const auto &batch : problem.points.batches)
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           {

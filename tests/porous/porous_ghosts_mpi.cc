@@ -60,7 +60,7 @@ namespace
   {
     Step(const Cloud<dim> &cloud, const SchemeKind kind, const double factor)
       : EquationsOfTerms<dim>(cloud, time_of(kind), true)
-      , loads(no_body_force(), {false}, {}, {}, {})
+      , loads(no_body_force(), {false}, {}, {})
     {
       PoreFluidParameters parameters;
       parameters.fluid_bulk_modulus = bulk_modulus;

@@ -71,6 +71,12 @@ namespace kedge
       return parameters.holds_body.empty() || parameters.holds_body[body];
     }
 
+    BasisKind
+    basis_of(const unsigned int body) const
+    {
+      return parameters.basis_of_body[body];
+    }
+
     /** True if the last reinit() has changed the nodes or their numbers (collective). */
     bool
     new_nodes() const

@@ -78,7 +78,7 @@ namespace kedge
     Pack
     tangent(const Response<Pack> &response, const int i, const int j) const
     {
-      return in_lanes(response, [&](const auto &one) {
+      return in_lanes(response, [&](const typename Response<Pack>::One &one) {
         return Law::tangent(one, i, j);
       });
     }
@@ -86,7 +86,7 @@ namespace kedge
     Pack
     secant_shear(const Response<Pack> &response, const int i, const int j) const
     {
-      return in_lanes(response, [&](const auto &one) {
+      return in_lanes(response, [&](const typename Response<Pack>::One &one) {
         return Law::secant_shear(one, i, j);
       });
     }
@@ -94,7 +94,7 @@ namespace kedge
     Pack
     work_slope(const Response<Pack> &response, const int i) const
     {
-      return in_lanes(response, [&](const auto &one) {
+      return in_lanes(response, [&](const typename Response<Pack>::One &one) {
         return Law::work_slope(one, i);
       });
     }
@@ -102,7 +102,7 @@ namespace kedge
     Pack
     plastic_increment(const Response<Pack> &response, const int i) const
     {
-      return in_lanes(response, [&](const auto &one) {
+      return in_lanes(response, [&](const typename Response<Pack>::One &one) {
         return Law::plastic_increment(one, i);
       });
     }
@@ -110,7 +110,7 @@ namespace kedge
     Pack
     dissipation(const Response<Pack> &response) const
     {
-      return in_lanes(response, [&](const auto &one) {
+      return in_lanes(response, [&](const typename Response<Pack>::One &one) {
         return Law::dissipation(one);
       });
     }

@@ -102,7 +102,7 @@ namespace kedge
     book_state(const MaterialPoints<dim> &cloud, Ledger &ledger) const override;
 
     /** The water that presses on the bodies' surfaces. */
-    const PointForces<dim> &
+    const SurfaceLoads<dim> &
     water_pressures() const
     {
       return surfaces;

@@ -24,7 +24,7 @@ namespace kedge
     /**
      * Adds the volume that enters in a step @p dt at the rate of time @p t to
      * the pressure's entry among dim + 1 values per local node [m^3]: partial
-     * sums. The functions of the nodes are taken at the face, N_A + g_A.offset.
+     * sums. The functions of the nodes are those at the face.
      */
     void
     add_supply(const Patch<dim>    &patch,

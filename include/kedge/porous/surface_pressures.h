@@ -1,10 +1,8 @@
 #ifndef kedge_porous_surface_pressures_h
 #define kedge_porous_surface_pressures_h
 
-#include <kedge/base/load_program.h>
 #include <kedge/porous/parameters.h>
-#include <kedge/solid/point_forces.h>
-#include <kedge/surfaces/surface_faces.h>
+#include <kedge/solid/surface_loads.h>
 
 namespace kedge
 {
@@ -13,9 +11,7 @@ namespace kedge
    * surface as water also presses on the mixture, traction -p n, (4.198).
    */
   template <int dim>
-  class SurfacePressures
-    : public SurfaceFaces<dim>
-    , public PointForces<dim>
+  class SurfacePressures : public SurfaceLoads<dim>
   {
   public:
     SurfacePressures(const std::vector<SurfacePressureParameters> &parameters,
@@ -26,17 +22,9 @@ namespace kedge
     std::vector<double>
     pressures(const double t) const;
 
-    bool
-    empty() const override
-    {
-      return SurfaceFaces<dim>::empty();
-    }
-
-    /** The force of the water on the points, one per slot, at time @p t [N]. */
-    void
-    add_force(const StepPoints<dim>               &points,
-              const double                         t,
-              std::vector<dealii::Tensor<1, dim>> &forces) const override;
+    /** The force of the water on each of points() at time @p t [N]. */
+    std::vector<dealii::Tensor<1, dim>>
+    forces(const double t) const override;
 
   private:
     const LoadProgram       program;

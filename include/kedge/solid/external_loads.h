@@ -6,18 +6,17 @@
 #include <kedge/fields/step_points.h>
 #include <kedge/points/generation.h>
 #include <kedge/solid/parameters.h>
-#include <kedge/solid/point_forces.h>
 
 #include <unordered_map>
 
 namespace kedge
 {
   /**
-   * The forces that act on material points from outside: body force, point
-   * loads, tractions. All are dead loads that move with their points.
+   * The forces that act on material points from outside: body force and point
+   * loads. All are dead loads that move with their points.
    */
   template <int dim>
-  class ExternalLoads : public PointForces<dim>
+  class ExternalLoads
   {
   public:
     /**
@@ -27,7 +26,6 @@ namespace kedge
     ExternalLoads(const std::array<std::string, dim>          &body_force,
                   const std::vector<bool>                     &has_body_force,
                   const std::vector<PointLoadParameters<dim>> &point_loads,
-                  const std::vector<TractionParameters<dim>>  &tractions,
                   const std::map<std::string, double>         &constants,
                   const LoadProgram                           &program = {});
 
@@ -36,45 +34,40 @@ namespace kedge
      * them, on all ranks) and marks their state as loaded.
      *
      * @param body_names one per body
-     * @throws UserError if a traction finds no exposed face
+     * @throws UserError if a point load lies outside of its body
      */
     void
     attach(std::vector<GeneratedPoint<dim>> &points, const std::vector<std::string> &body_names);
 
     /** True if there is no load at all: add_force() need not be called. */
     bool
-    empty() const override;
+    empty() const;
 
     /** The acceleration of the body force at time @p t [m/s^2]. */
     std::array<double, std::size_t(dim)>
     body_acceleration(const double t) const;
 
+    /** Adds the force on each slot at time @p t [N]. */
     void
     add_force(const StepPoints<dim>               &points,
               const double                         t,
-              std::vector<dealii::Tensor<1, dim>> &forces) const override;
+              std::vector<dealii::Tensor<1, dim>> &forces) const;
 
   private:
     struct Share
     {
       unsigned int load;   ///< index into force_expressions
-      double       factor; ///< part of the force, or area of a traction [m^2]
+      double       factor; ///< part of the force
     };
 
     void
     attach_point_load(const unsigned int                load,
                       std::vector<GeneratedPoint<dim>> &points,
                       const std::vector<std::string>   &body_names);
-    void
-    attach_traction(const unsigned int                traction,
-                    std::vector<GeneratedPoint<dim>> &points,
-                    const std::vector<std::string>   &body_names);
 
     std::array<Expression, std::size_t(dim)>              body_force;
     std::vector<bool>                                     has_body_force;
     std::vector<PointLoadParameters<dim>>                 point_loads;
-    std::vector<TractionParameters<dim>>                  tractions;
-    std::map<std::string, double>                         constants;
     std::vector<std::array<Expression, std::size_t(dim)>> load_expressions;
     std::unordered_map<std::uint64_t, std::vector<Share>> shares; ///< by id of the point
     LoadProgram                                           program;

@@ -3,13 +3,14 @@
 
 #include <kedge/equations/term.h>
 #include <kedge/solid/external_loads.h>
+#include <kedge/solid/surface_loads.h>
 #include <kedge/transfer/motion_term.h>
 
 namespace kedge
 {
   /**
-   * The external forces on the points of a field, f_ext at the load time of the scheme. Books their
-   * work: that of their value in the middle of the step.
+   * The external forces on the points and outer faces of a field, f_ext at the load time of the
+   * scheme. Books their work: that of their value in the middle of the step.
    */
   template <int dim>
   class LoadTerm : public Term<dim>
@@ -19,15 +20,16 @@ namespace kedge
     LoadTerm(const unsigned int              field,
              const Patch<dim>               &patch,
              const ExternalLoads<dim>       &loads,
+             const SurfaceTractions<dim>    &tractions,
              const std::vector<std::string> &body_names,
              const MotionTerm<dim>          &motion,
              const Scheme                   &scheme);
 
-    /** Further forces on the points; they must last as long as this. */
+    /** Further forces on faces; they must last as long as this. */
     void
-    add_forces(const PointForces<dim> &forces)
+    add_forces(const SurfaceLoads<dim> &forces)
     {
-      others.push_back(&forces);
+      on_faces.push_back(&forces);
     }
 
     const ExternalLoads<dim> &
@@ -49,6 +51,9 @@ namespace kedge
     declare_books(Ledger &ledger) override;
 
     void
+    activate(const MaterialPoints<dim> &cloud) override;
+
+    void
     start(Trial<dim> &trial) override;
 
     Answer
@@ -68,15 +73,16 @@ namespace kedge
     std::vector<double>
     at_nodes(const double t) const;
 
-    const unsigned int                    field;
-    const Patch<dim>                     &patch;
-    ExternalLoads<dim>                    loads;
-    const std::vector<std::string>        body_names;
-    const MotionTerm<dim>                &motion;
-    const Scheme                          scheme;
-    std::vector<const PointForces<dim> *> others;
-    std::vector<double>                   external_force; ///< at the owned nodes [N]
-    Ledger::Index                         work = 0;
+    const unsigned int                     field;
+    const Patch<dim>                      &patch;
+    ExternalLoads<dim>                     loads;
+    SurfaceTractions<dim>                  tractions;
+    const std::vector<std::string>         body_names;
+    const MotionTerm<dim>                 &motion;
+    const Scheme                           scheme;
+    std::vector<const SurfaceLoads<dim> *> on_faces;       ///< tractions and others
+    std::vector<double>                    external_force; ///< at the owned nodes [N]
+    Ledger::Index                          work = 0;
   };
 } // namespace kedge
 

@@ -1,6 +1,8 @@
 #ifndef kedge_solid_parameters_h
 #define kedge_solid_parameters_h
 
+#include <kedge/surfaces/parameters.h>
+
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -20,18 +22,10 @@ namespace kedge
     std::array<std::string, dim> force; ///< expressions of t [N; N/m in 2D]
   };
 
-  /**
-   * A dead traction on the exposed faces of a body: all material points in
-   * the region whose sub-cell has no neighbour of the same body in direction
-   * @p side carry traction times the face's reference area.
-   */
+  /** A dead traction on outer faces of a body. */
   template <int dim>
-  struct TractionParameters
+  struct TractionParameters : SurfaceParameters
   {
-    std::string                  name;
-    std::string                  body;
-    unsigned int                 side = 0; ///< 2*direction + (0: low, 1: high)
-    std::string                  where;    ///< expression of x, y, z; empty: everywhere
     std::array<std::string, dim> traction; ///< expressions of t, per reference area [Pa]
   };
 } // namespace kedge

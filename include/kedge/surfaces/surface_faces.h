@@ -4,8 +4,8 @@
 #include <kedge/base/expression.h>
 #include <kedge/points/generation.h>
 #include <kedge/points/material_points.h>
+#include <kedge/surfaces/face_functions.h>
 #include <kedge/surfaces/parameters.h>
-#include <kedge/fields/step_points.h>
 
 #include <unordered_map>
 
@@ -16,9 +16,11 @@ namespace kedge
   struct SurfacePoint
   {
     unsigned int slot;
-    unsigned int surface;     ///< number of the surface
-    double       offset[dim]; ///< from the point to the face's centre [m]
-    double       area[dim];   ///< outward normal times area [m^2]
+    unsigned int surface;        ///< number of the surface
+    double       offset[dim];    ///< from the point to the face's centre [m]
+    double       area[dim];      ///< outward normal times area [m^2]
+    double       reference_area; ///< of the undeformed face [m^2]
+    Stencil<dim> functions;      ///< of the nodes at the face, see functions_at_face()
   };
 
   /**
@@ -35,8 +37,8 @@ namespace kedge
                  const std::map<std::string, double>  &constants);
 
     /**
-     * Finds the faces among the points just generated (all of them, on all
-     * ranks) and marks their points as loaded.
+     * Finds the faces, or the parts of them where Where is true, among the points just
+     * generated (all of them, on all ranks) and marks their points as loaded.
      *
      * @param body_names one per body
      * @throws UserError for a surface that finds no exposed face
@@ -46,7 +48,7 @@ namespace kedge
 
     /** Reads the faces of this rank's points as they are at the start of a step. */
     void
-    reinit(const MaterialPoints<dim> &cloud, const StepPoints<dim> &points);
+    reinit(const MaterialPoints<dim> &cloud, const Patch<dim> &patch);
 
     bool
     empty() const
@@ -64,9 +66,9 @@ namespace kedge
   private:
     struct Face
     {
-      unsigned int surface;
-      double       area;   ///< undeformed [m^2]
-      double       offset; ///< undeformed, from the point to the face [m]
+      unsigned int           surface;
+      double                 area;   ///< undeformed [m^2]
+      dealii::Tensor<1, dim> offset; ///< undeformed, from the point to the face's centre [m]
     };
 
     const std::string                                    what;

@@ -1,0 +1,33 @@
+#ifndef kedge_surfaces_face_functions_h
+#define kedge_surfaces_face_functions_h
+
+#include <kedge/fields/patch.h>
+
+namespace kedge
+{
+  /**
+   * The functions of a material point's nodes at a face of its domain: what acts on a
+   * surface goes to the nodes by these and not by the point's own functions, which belong to the
+   * middle of its domain. In the direction into which the face looks they are those
+   * of the background grid at the face: for GIMP the functions whose mean slope over the domain
+   * makes the internal force, so that the forces of a uniform stress and of
+   * its traction cancel node by node, wherever the body ends within a cell. Along the face they
+   * are the point's, continued linearly. They are a partition of unity and give linear
+   * fields exactly: force and moment of a load are kept.
+   *
+   * @param slot   the point's
+   * @param offset from the point to the face's centre, now [m]
+   * @param area   normal times area, now [m^2]
+   *
+   * @return nodes and pattern of the point's stencil with other values; slopes are the point's
+   */
+  template <int dim>
+  Stencil<dim>
+  functions_at_face(const Patch<dim>  &patch,
+                    const unsigned int slot,
+                    const BasisKind    basis,
+                    const double (&offset)[dim],
+                    const double (&area)[dim]);
+} // namespace kedge
+
+#endif

@@ -1,0 +1,119 @@
+#include <kedge/solid/surface_loads.h>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Calls visit(local node, N_A at the face) for the nodes of a face. */
+    template <int dim, typename Visit>
+    struct ForNodesOfFace
+    {
+      const Patch<dim>   &patch;
+      const Stencil<dim> &functions;
+      const Visit        &visit;
+
+      template <unsigned int pattern>
+      void
+      run() const
+      {
+        const auto offsets = node_offsets<dim, pattern>(patch.window().node_strides());
+        const auto basis   = expand<dim, pattern>(functions);
+        for (int A = 0; A < stencil_size<dim>(pattern); ++A)
+          visit(static_cast<unsigned int>(patch.nodes.local(functions.first_node + offsets[A])),
+                basis.value[A]);
+      }
+    };
+
+    template <int dim, typename Visit>
+    void
+    for_nodes_of_face(const Patch<dim> &patch, const SurfacePoint<dim> &face, const Visit &visit)
+    {
+      dispatch_pattern<dim>(face.functions.pattern,
+                            ForNodesOfFace<dim, Visit>{patch, face.functions, visit});
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  add_face_forces(const Patch<dim>                          &patch,
+                  const std::vector<SurfacePoint<dim>>      &faces,
+                  const std::vector<dealii::Tensor<1, dim>> &forces,
+                  std::vector<double>                       &sums)
+  {
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for_nodes_of_face(patch, faces[f], [&](const unsigned int node, const double value) {
+        for (int d = 0; d < dim; ++d)
+          sums[std::size_t(node) * dim + d] += value * forces[f][d];
+      });
+  }
+
+
+
+  template <int dim>
+  double
+  work_of_face_forces(const Patch<dim>                          &patch,
+                      const std::vector<SurfacePoint<dim>>      &faces,
+                      const std::vector<dealii::Tensor<1, dim>> &forces,
+                      const std::vector<double>                 &displacement)
+  {
+    double work = 0.;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for_nodes_of_face(patch, faces[f], [&](const unsigned int node, const double value) {
+        for (int d = 0; d < dim; ++d)
+          work += value * forces[f][d] * displacement[std::size_t(node) * dim + d];
+      });
+    return work;
+  }
+
+
+
+  template <int dim>
+  SurfaceTractions<dim>::SurfaceTractions(const std::vector<TractionParameters<dim>> &parameters,
+                                          const std::map<std::string, double>        &constants,
+                                          const LoadProgram                          &program)
+    : SurfaceLoads<dim>("Traction", {parameters.begin(), parameters.end()}, constants)
+    , program(program)
+  {
+    for (const auto &p : parameters)
+      {
+        std::array<Expression, std::size_t(dim)> of_surface;
+        for (int d = 0; d < dim; ++d)
+          of_surface[d] = Expression(p.traction[d], {"t"}, constants);
+        expressions.push_back(of_surface);
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  SurfaceTractions<dim>::forces(const double t) const
+  {
+    std::vector<dealii::Tensor<1, dim>> tractions, result;
+    for (const auto &of_surface : expressions)
+      {
+        dealii::Tensor<1, dim> traction;
+        for (int d = 0; d < dim; ++d)
+          traction[d] = program.factor(t) * of_surface[d]({program.time(t)});
+        tractions.push_back(traction);
+      }
+    for (const auto &face : this->points())
+      result.push_back(face.reference_area * tractions[face.surface]);
+    return result;
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                                     \
+  template void   add_face_forces(const Patch<dim> &,                              \
+                                  const std::vector<SurfacePoint<dim>> &,          \
+                                  const std::vector<dealii::Tensor<1, dim>> &,     \
+                                  std::vector<double> &);                          \
+  template double work_of_face_forces(const Patch<dim> &,                          \
+                                      const std::vector<SurfacePoint<dim>> &,      \
+                                      const std::vector<dealii::Tensor<1, dim>> &, \
+                                      const std::vector<double> &);                \
+  template class SurfaceTractions<dim>;
+  KEDGE_INSTANTIATE(2)
+  KEDGE_INSTANTIATE(3)
+} // namespace kedge
