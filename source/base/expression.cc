@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/base/expression.h>
+#include <kedge/base/shortened.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/thread_local_storage.h>
@@ -85,7 +86,8 @@ namespace kedge
           if (text[i] != '=' || after_comparison)
             continue;
           if (i + 1 == text.size() || text[i + 1] != '=')
-            throw UserError("The expression '" + text + "' holds a single =; write == to compare.");
+            throw UserError("The expression '" + shortened(text) +
+                            "' holds a single =; write == to compare.");
           ++i;
         }
     }
@@ -175,7 +177,7 @@ namespace kedge
         const bool uses_variables = !parser.parser.GetUsedVar().empty();
         constant_value            = parser.parser.Eval();
         if (parser.parser.GetNumResults() != 1)
-          throw UserError("The expression '" + formula + "' has more than one value.");
+          throw UserError("The expression '" + shortened(formula) + "' has more than one value.");
         if (uses_variables)
           return;
         parsers.reset();
@@ -190,11 +192,11 @@ namespace kedge
         std::string cause = error.GetMsg();
         if (!cause.empty() && cause.back() != '.')
           cause += '.';
-        throw UserError("The expression '" + formula + "' cannot be read: " + cause +
-                        " Known names: " + known + "pi.");
+        throw UserError("The expression '" + shortened(formula) + "' cannot be read: " +
+                        shortened(cause) + " Known names: " + shortened(known + "pi", 400) + ".");
       }
     if (!std::isfinite(constant_value))
-      throw UserError("The expression '" + formula + "' has no finite value.");
+      throw UserError("The expression '" + shortened(formula) + "' has no finite value.");
   }
 
 

@@ -17,6 +17,28 @@ namespace kedge
       return text;
     }
 
+    /** In lower case, with spaces for all kinds of blanks. */
+    std::string
+    plain(const std::string &text)
+    {
+      std::string result = lower_case(text);
+      std::replace_if(
+        result.begin(),
+        result.end(),
+        [](const char letter) {
+          return letter == '_' || letter == '-';
+        },
+        ' ');
+      return result;
+    }
+
+    /** Whether @p part stands in @p text as a whole word or several. */
+    bool
+    holds_words(const std::string &text, const std::string &part)
+    {
+      return part.size() > 2 && (' ' + text + ' ').find(' ' + part + ' ') != std::string::npos;
+    }
+
     /** Damerau's and Levenshtein's distance, each pair of neighbours swapped at most once. */
     std::size_t
     edit_distance(const std::string &a, const std::string &b)
@@ -58,5 +80,32 @@ namespace kedge
           }
       }
     return nearest;
+  }
+
+
+
+  std::string
+  did_you_mean(const std::string &name, const std::vector<std::string> &candidates)
+  {
+    constexpr std::size_t longest = 200; // nobody mistypes more
+    std::string           best;
+    std::size_t           smallest = std::numeric_limits<std::size_t>::max();
+    if (name.size() > longest)
+      return "";
+    for (const std::string &candidate : candidates)
+      {
+        const std::string a = plain(name), b = plain(candidate);
+        const std::size_t length   = std::max(a.size(), b.size());
+        std::size_t       distance = edit_distance(a, b);
+        if (holds_words(a, b) || holds_words(b, a))
+          distance = std::min<std::size_t>(distance, 2);
+        const bool alike = distance <= std::max<std::size_t>(2, length / 3) && distance < length;
+        if (alike && distance < smallest)
+          {
+            smallest = distance;
+            best     = candidate;
+          }
+      }
+    return best.empty() ? "" : " Did you mean '" + best + "'?";
   }
 } // namespace kedge

@@ -163,10 +163,9 @@ namespace kedge
       for (const std::string &candidate : valid)
         list += (list.empty() ? "" : ", ") + candidate;
       throw UserError("The check '" + check.name + "' asks for '" + check.column +
-                      "', but there is no " + what + " '" + name + "' in this run. " +
-                      (valid.empty() ? "There is none at all."
-                                     : "Did you mean '" + nearest_name(name, valid) +
-                                         "'? Valid are: " + list + '.'));
+                      "', but there is no " + what + " '" + name + "' in this run." +
+                      (valid.empty() ? " There is none at all."
+                                     : did_you_mean(name, valid) + " Valid are: " + list + '.'));
     }
   } // namespace
 

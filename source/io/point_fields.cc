@@ -258,8 +258,8 @@ namespace kedge
       std::string list;
       for (const std::string &candidate : valid)
         list += (list.empty() ? "" : ", ") + candidate;
-      throw UserError("There is no point field '" + name + "'. Did you mean '" +
-                      nearest_name(name, valid) + "'? Valid are: " + list + ".");
+      throw UserError("There is no point field '" + name + "'." + did_you_mean(name, valid) +
+                      " Valid are: " + list + ".");
     }
   } // namespace
 

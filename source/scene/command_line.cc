@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/base/nearest_name.h>
+#include <kedge/base/shortened.h>
 #include <kedge/scene/command_line.h>
 
 #include <algorithm>
@@ -108,8 +109,8 @@ namespace kedge
             return option;
           names.push_back(option.name);
         }
-      throw UserError("There is no option " + name + ". Did you mean " + nearest_name(name, names) +
-                      "? kedge --help lists all options.");
+      throw UserError("There is no option " + shortened(name) + "." + did_you_mean(name, names) +
+                      " kedge --help lists all options.");
     }
 
     /** Splits "--output=DIR"; a short option and one with a blank stay as they are. */
@@ -130,6 +131,7 @@ namespace kedge
   {
     CommandLine                    command;
     const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    command.arguments.assign(argv, argv + argc);
     for (std::size_t i = 0; i < arguments.size(); ++i)
       {
         if (arguments[i].empty() || arguments[i] == "-" || arguments[i][0] != '-')

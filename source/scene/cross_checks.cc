@@ -1,10 +1,25 @@
 #include <kedge/base/nearest_name.h>
+#include <kedge/base/shortened.h>
 #include <kedge/scene/cross_checks.h>
 
 #include <algorithm>
 
 namespace kedge
 {
+  namespace
+  {
+    std::string
+    list_of(const std::vector<std::string> &names)
+    {
+      std::string list;
+      for (const std::string &name : names)
+        list += (list.empty() ? "" : ", ") + name;
+      return shortened(list);
+    }
+  } // namespace
+
+
+
   unsigned int
   find_name(const ParameterReader &reader,
             const SectionReader   &section,
@@ -18,7 +33,9 @@ namespace kedge
       throw section.error(entry,
                           "There is no " + names_section + "/" + name + "." +
                             (names.empty() ? " The section " + names_section + " is empty."
-                                           : " Did you mean '" + nearest_name(name, names) + "'?"));
+                                           : did_you_mean(name, names) + " There " +
+                                               (names.size() == 1 ? "is only " : "are ") +
+                                               list_of(names) + "."));
     return static_cast<unsigned int>(found - names.begin());
   }
 

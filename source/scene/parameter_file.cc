@@ -1,4 +1,6 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/base/shortened.h>
+#include <kedge/base/user_errors.h>
 #include <kedge/scene/parameter_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -103,19 +105,32 @@ namespace kedge
             if (continued)
               continue;
             if (!statement.empty())
-              handle(statement);
+              attempt(statement);
             statement.clear();
           }
         if (input.bad())
           throw UserError(file_name + ": cannot be read to its end.");
         if (!statement.empty())
-          handle(statement);
+          attempt(statement);
+        errors.throw_if_any();
         if (section.size() > depth_at_begin)
-          throw UserError(opened_at.back().describe() + ": subsection " + section.back() +
+          throw UserError(opened_at.back().describe() + ": subsection " +
+                          shortened(section.back()) +
                           " is not closed; write 'end' after its last entry.");
       }
 
     private:
+      /** Keeps errors for later, but what follows a wrong 'end' has no meaning. */
+      void
+      attempt(const std::string &statement)
+      {
+        if (!errors.attempt([&]() {
+              handle(statement);
+            }) &&
+            (statement.rfind("end", 0) == 0 || statement.rfind("END", 0) == 0))
+          errors.throw_if_any();
+      }
+
       void
       handle(const std::string &statement)
       {
@@ -132,7 +147,7 @@ namespace kedge
         else if (keyword == "include" || keyword == "INCLUDE")
           handle_include(rest);
         else
-          throw UserError(origin.describe() + ": '" + statement +
+          throw UserError(origin.describe() + ": '" + shortened(statement) +
                           "' is not a line of a parameter file; allowed are 'set name = value', "
                           "'subsection name', 'end' and 'include file'.");
       }
@@ -142,15 +157,16 @@ namespace kedge
       {
         ParameterEntry entry;
         if (!split_assignment(assignment, entry.name, entry.value))
-          throw UserError(origin.describe() + ": 'set " + assignment +
+          throw UserError(origin.describe() + ": 'set " + shortened(assignment) +
                           "' does not have the form 'set name = value'.");
         entry.section              = section;
         entry.origin               = origin;
         const std::string key      = join(section) + entry.name;
         const auto [first, is_new] = first_lines.emplace(key, origin.line);
         if (!is_new)
-          throw UserError(origin.describe() + ": " + key + " is set a second time; line " +
-                          std::to_string(first->second) + " has set it already.");
+          throw UserError(origin.describe() + ": " + shortened(key) +
+                          " is set a second time; line " + std::to_string(first->second) +
+                          " has set it already.");
         put(result.entries, entry);
       }
 
@@ -180,13 +196,17 @@ namespace kedge
           std::filesystem::path(file_name).parent_path() / std::filesystem::path(name);
         std::vector<std::string> files = including_files;
         files.push_back(file_name);
+        std::error_code error; // for instance of a name that is too long
+        errno = 0;
         std::ifstream input(path);
-        if (name.empty() || std::filesystem::is_directory(path) || !input)
-          throw UserError(origin.describe() + ": the included file '" + path.string() +
-                          "' cannot be opened.");
+        if (name.empty() || std::filesystem::is_directory(path, error) || !input)
+          throw UserError(origin.describe() + ": the included file '" + shortened(path.string()) +
+                          "' cannot be opened" +
+                          (errno != 0 ? ": " + std::string(std::strerror(errno)) : "") + ".");
         for (const std::string &file : files)
-          if (std::filesystem::exists(file) && std::filesystem::equivalent(file, path))
-            throw UserError(origin.describe() + ": the file '" + name + "' includes itself.");
+          if (std::filesystem::equivalent(file, path, error))
+            throw UserError(origin.describe() + ": the file '" + shortened(name) +
+                            "' includes itself.");
         FileParser(path.string(), files, section, result).parse(input);
       }
 
@@ -197,6 +217,7 @@ namespace kedge
       ParameterFile                      &result;
       ParameterOrigin                     origin;
       std::vector<ParameterOrigin>        opened_at; ///< of the subsections now open
+      UserErrors                          errors;
       std::map<std::string, unsigned int> first_lines;
     };
 
@@ -207,12 +228,13 @@ namespace kedge
     {
       if (file_name == "-")
         return ParameterFile::read(std::cin, "-");
-      if (std::filesystem::is_directory(file_name))
+      std::error_code error;
+      if (std::filesystem::is_directory(file_name, error))
         throw UserError("The scene '" + file_name + "' is a folder, not a parameter file.");
       errno = 0;
       std::ifstream input(file_name);
       if (!input)
-        throw UserError("The scene '" + file_name + "' cannot be opened: " +
+        throw UserError("The scene '" + shortened(file_name) + "' cannot be opened: " +
                         (errno != 0 ? std::strerror(errno) : "unknown cause") + ".");
       return ParameterFile::read(input, file_name);
     }
@@ -268,7 +290,7 @@ namespace kedge
     ParameterEntry entry;
     std::string    name;
     if (!split_assignment(assignment, name, entry.value))
-      throw UserError("The option --set '" + assignment +
+      throw UserError("The option --set '" + shortened(assignment) +
                       "' does not have the form --set \"Section/Name = value\".");
     entry.section = dealii::Utilities::split_string_list(name, '/');
     entry.name    = entry.section.back();

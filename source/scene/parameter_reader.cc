@@ -1,5 +1,7 @@
 #include <kedge/base/expression.h>
 #include <kedge/base/nearest_name.h>
+#include <kedge/base/shortened.h>
+#include <kedge/base/user_errors.h>
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/values.h>
 
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <sstream>
 
 namespace kedge
@@ -17,16 +20,6 @@ namespace kedge
   {
     using Path = std::vector<std::string>;
 
-    /** "Bodies/beam/Geometry" */
-    std::string
-    full_name(const Path &section, const std::string &entry)
-    {
-      std::string joined;
-      for (const std::string &part : section)
-        joined += part + "/";
-      return joined + entry;
-    }
-
     std::string
     join(const std::vector<std::string> &words)
     {
@@ -34,14 +27,6 @@ namespace kedge
       for (const std::string &word : words)
         joined += (joined.empty() ? "" : ", ") + word;
       return joined;
-    }
-
-    std::string
-    did_you_mean(const std::string &name, const std::vector<std::string> &candidates)
-    {
-      if (candidates.empty())
-        return "";
-      return " Did you mean '" + nearest_name(name, candidates) + "'?";
     }
 
     std::vector<std::string>
@@ -53,10 +38,14 @@ namespace kedge
       return names;
     }
 
-    /** Characters with a meaning in paths, columns, options or files. */
+    /** Characters with a meaning in paths, columns, options or files; names that are too long. */
     void
     check_user_name(const std::string &name, const std::string &place)
     {
+      constexpr std::size_t longest = 100;
+      if (name.size() > longest)
+        throw UserError(place + ": the name '" + shortened(name, 40) + "' is longer than " +
+                        std::to_string(longest) + " characters.");
       const std::string forbidden = "/\\.,;=\"<>";
       if (name.find_first_of(forbidden) != std::string::npos)
         throw UserError(place + ": the name '" + name + "' may not hold any of the characters " +
@@ -95,18 +84,23 @@ namespace kedge
           constants[entry.name] = 1; // any number: is it only the value that is missing?
         }
       const auto place = [](const ParameterEntry &entry) {
-        return entry.origin.describe() + ": Constants/" + entry.name + " = " + entry.value + ": ";
+        return entry.origin.describe() + ": Constants/" + entry.name + " = " +
+               shortened(entry.value) + ": ";
       };
+      UserErrors errors;
       for (const ParameterEntry &entry : entries)
-        try
-          {
-            evaluate_constant(entry.value, constants);
-          }
-        catch (const UserError &error)
-          {
-            throw UserError(place(entry) + error.what());
-          }
-      throw UserError(place(entries.front()) + "Of the constants " + join(names) +
+        errors.attempt([&]() {
+          try
+            {
+              evaluate_constant(entry.value, constants);
+            }
+          catch (const UserError &error)
+            {
+              throw UserError(place(entry) + error.what());
+            }
+        });
+      errors.throw_if_any();
+      throw UserError(place(entries.front()) + "Of the constants " + shortened(join(names)) +
                       " each needs another of them.");
     }
   } // namespace
@@ -153,10 +147,10 @@ namespace kedge
     , declarations(declarations)
     , user_constants(constants)
   {
-    check_sections();
-    for (const ParameterEntry &entry : file.entries)
-      check_entry(entry);
-    declare();
+    check();
+    for_each_declared([&](const Path &path, const SectionDeclaration &section) {
+      declare(path, section);
+    });
     for (const ParameterEntry &entry : file.entries)
       {
         for (const std::string &section : entry.section)
@@ -165,6 +159,63 @@ namespace kedge
         for (std::size_t i = 0; i < entry.section.size(); ++i)
           handler.leave_subsection();
       }
+  }
+
+
+
+  void
+  ParameterReader::check() const
+  {
+    UserErrors     errors;
+    std::set<Path> unknown; // sections; what stands in them is not worth an error of its own
+    std::set<Path> suspect; // an entry that seems to be missing there may be misspelt
+    for (const ParameterSection &section : file.sections)
+      if (!errors.attempt([&]() {
+            check_section(section);
+          }))
+        unknown.insert(section.path);
+    const bool all_sections_known = unknown.empty();
+    for (const ParameterEntry &entry : file.entries)
+      {
+        const Path parent(entry.section.begin(),
+                          entry.section.begin() +
+                            std::min<std::ptrdiff_t>(1, entry.section.size()));
+        if (unknown.count(entry.section) == 0 && unknown.count(parent) == 0 &&
+            !errors.attempt([&]() {
+              check_entry(entry);
+            }))
+          suspect.insert(entry.section);
+      }
+    for_each_declared([&](const Path &path, const SectionDeclaration &section) {
+      if (unknown.count(path) + suspect.count(path) == 0 && (all_sections_known || is_opened(path)))
+        for (const EntryDeclaration &entry : section.entries)
+          errors.attempt([&]() {
+            require(path, entry);
+          });
+    });
+    errors.throw_if_any();
+  }
+
+
+
+  bool
+  ParameterReader::is_opened(const Path &path) const
+  {
+    return path.empty() ||
+           std::any_of(file.sections.begin(), file.sections.end(), [&](const auto &section) {
+             return section.path == path;
+           });
+  }
+
+
+
+  std::string
+  ParameterReader::full_name(const Path &section, const std::string &entry)
+  {
+    std::string joined;
+    for (const std::string &part : section)
+      joined += part + "/";
+    return joined + entry;
   }
 
 
@@ -178,33 +229,32 @@ namespace kedge
         return candidate;
       else if (!candidate.name.empty())
         known.push_back(candidate.name);
-    throw UserError(place + ": there is no section '" + section + "'." +
+    throw UserError(place + ": there is no section '" + shortened(section) + "'." +
                     did_you_mean(section, known) + " Sections are " + join(known) + ".");
   }
 
 
 
   void
-  ParameterReader::check_sections() const
+  ParameterReader::check_section(const ParameterSection &section) const
   {
-    std::map<Path, ParameterOrigin> named;
-    for (const ParameterSection &section : file.sections)
+    const std::string         place  = section.origin.describe();
+    const SectionDeclaration &parent = declaration(section.path[0], place);
+    if (section.path.size() == 1)
+      return;
+    if (section.path.size() > 2 || parent.kind != SectionKind::named)
+      throw UserError(place + ": the section " + full_name(section.path, "") +
+                      " cannot stand here; section " + section.path[0] +
+                      (parent.kind == SectionKind::named ? " holds subsections of one level only."
+                                                         : " holds no subsections."));
+    check_user_name(section.path[1], place);
+    for (const ParameterSection &first : file.sections)
       {
-        const std::string         place  = section.origin.describe();
-        const SectionDeclaration &parent = declaration(section.path[0], place);
-        if (section.path.size() == 1)
-          continue;
-        if (section.path.size() > 2 || parent.kind != SectionKind::named)
-          throw UserError(place + ": the section " + full_name(section.path, "") +
-                          " cannot stand here; section " + section.path[0] +
-                          (parent.kind == SectionKind::named
-                             ? " holds subsections of one level only."
-                             : " holds no subsections."));
-        check_user_name(section.path[1], place);
-        const auto [first, is_new] = named.emplace(section.path, section.origin);
-        if (!is_new && first->second.file == section.origin.file)
+        if (&first == &section)
+          return;
+        if (first.path == section.path && first.origin.file == section.origin.file)
           throw UserError(place + ": the name " + section.path[0] + "/" + section.path[1] +
-                          " is given a second time; line " + std::to_string(first->second.line) +
+                          " is given a second time; line " + std::to_string(first.origin.line) +
                           " has it already.");
       }
   }
@@ -234,46 +284,49 @@ namespace kedge
       if (candidate.name == entry.name || section.kind == SectionKind::free_entries)
         declared = &candidate;
     if (declared == nullptr)
-      throw UserError(place + ": there is no entry " + name + "." +
+      throw UserError(place + ": there is no entry " + shortened(name) + "." +
                       did_you_mean(entry.name, entry_names(section)) + " Entries here are " +
                       join(entry_names(section)) + ".");
 
     const std::string problem = declared->pattern.problem(entry.value);
     if (!problem.empty())
-      throw UserError(place + ": " + name + " = " + entry.value + ": " + problem);
+      throw UserError(place + ": " + shortened(name) + " = " + shortened(entry.value) + ": " +
+                      problem);
   }
 
 
 
   void
-  ParameterReader::declare()
+  ParameterReader::declare(const Path &path, const SectionDeclaration &section)
   {
-    const auto declare_entries = [&](const Path &path, const SectionDeclaration &section) {
-      for (const std::string &part : path)
-        handler.enter_subsection(part);
-      for (const EntryDeclaration &entry : section.entries)
-        {
-          const ValuePattern pattern =
-            entry.default_value ? entry.pattern : entry.pattern.or_empty();
-          handler.declare_entry(entry.name,
-                                entry.default_value.value_or(""),
-                                pattern,
-                                entry.documentation);
-        }
-      for (std::size_t i = 0; i < path.size(); ++i)
-        handler.leave_subsection();
-      for (const EntryDeclaration &entry : section.entries)
-        require(path, entry);
-    };
+    for (const std::string &part : path)
+      handler.enter_subsection(part);
+    for (const EntryDeclaration &entry : section.entries)
+      {
+        const ValuePattern pattern = entry.default_value ? entry.pattern : entry.pattern.or_empty();
+        handler.declare_entry(entry.name,
+                              entry.default_value.value_or(""),
+                              pattern,
+                              entry.documentation);
+      }
+    for (std::size_t i = 0; i < path.size(); ++i)
+      handler.leave_subsection();
+  }
 
+
+
+  void
+  ParameterReader::for_each_declared(
+    const std::function<void(const Path &, const SectionDeclaration &)> &action) const
+  {
     for (const SectionDeclaration &section : declarations)
       if (section.name.empty())
-        declare_entries({}, section);
+        action({}, section);
       else if (section.kind == SectionKind::plain)
-        declare_entries({section.name}, section);
+        action({section.name}, section);
       else if (section.kind == SectionKind::named)
         for (const std::string &name : names(section.name))
-          declare_entries({section.name, name}, section);
+          action({section.name, name}, section);
       else
         {
           SectionDeclaration                  given = section;
@@ -285,7 +338,7 @@ namespace kedge
                 given.entries.push_back(model[0]);
                 given.entries.back().name = entry.name;
               }
-          declare_entries({section.name}, given);
+          action({section.name}, given);
         }
   }
 
@@ -397,97 +450,5 @@ namespace kedge
       };
     collect(tree, "");
     return result;
-  }
-
-
-
-  SectionReader::SectionReader(const ParameterReader &reader, const Path &path)
-    : reader(reader)
-    , path(path)
-  {}
-
-
-
-  const std::string &
-  SectionReader::name() const
-  {
-    return path.back();
-  }
-
-
-
-  std::string
-  SectionReader::text(const std::string &entry) const
-  {
-    return reader.text(path, entry);
-  }
-
-
-
-  bool
-  SectionReader::is_empty(const std::string &entry) const
-  {
-    return text(entry).empty();
-  }
-
-
-
-  double
-  SectionReader::number(const std::string &entry) const
-  {
-    return evaluate_constant(text(entry), constants());
-  }
-
-
-
-  unsigned int
-  SectionReader::whole_number(const std::string &entry) const
-  {
-    return parse_whole_number(text(entry), constants());
-  }
-
-
-
-  bool
-  SectionReader::truth(const std::string &entry) const
-  {
-    return parse_truth(text(entry));
-  }
-
-
-
-  std::vector<std::string>
-  SectionReader::list(const std::string &entry) const
-  {
-    return split_list(text(entry));
-  }
-
-
-
-  std::vector<double>
-  SectionReader::numbers(const std::string &entry) const
-  {
-    std::vector<double> values;
-    for (const std::string &part : list(entry))
-      values.push_back(evaluate_constant(part, constants()));
-    return values;
-  }
-
-
-
-  const std::map<std::string, double> &
-  SectionReader::constants() const
-  {
-    return reader.constants();
-  }
-
-
-
-  UserError
-  SectionReader::error(const std::string &entry, const std::string &problem) const
-  {
-    const std::string value = text(entry);
-    return UserError(reader.place(path, entry) + ": " + full_name(path, entry) +
-                     (value.empty() ? "" : " = " + value) + ": " + problem);
   }
 } // namespace kedge

@@ -23,9 +23,8 @@ namespace kedge
       if (std::find(names.begin(), names.end(), name) == names.end())
         throw section.error("Quantity",
                             "There is no Probes/" + name + "." +
-                              (names.empty()
-                                 ? " The section Probes is empty."
-                                 : " Did you mean '" + nearest_name(name, names) + "'?"));
+                              (names.empty() ? " The section Probes is empty."
+                                             : did_you_mean(name, names)));
     }
 
     CheckParameters

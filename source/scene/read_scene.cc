@@ -1,15 +1,19 @@
+#include <kedge/base/user_errors.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
 #include <kedge/scene/read_geometry.h>
 #include <kedge/scene/read_materials.h>
+#include <kedge/scene/read_numerics.h>
 #include <kedge/scene/read_pore_fluid.h>
 #include <kedge/scene/read_scene.h>
 #include <kedge/scene/values.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <sstream>
 
 namespace kedge
 {
@@ -25,8 +29,12 @@ namespace kedge
                   const std::string     &section,
                   const ReadSection     &read)
     {
+      UserErrors errors;
       for (const std::string &name : reader.names(section))
-        read(SectionReader(reader, {section, name}));
+        errors.attempt([&]() {
+          read(SectionReader(reader, {section, name}));
+        });
+      errors.throw_if_any();
     }
 
     template <int dim>
@@ -62,6 +70,40 @@ namespace kedge
       return result;
     }
 
+    /** Refuses grids whose nodes cannot be numbered or told apart. */
+    template <int dim>
+    void
+    check_grid(const SectionReader &section, const GridParameters<dim> &grid)
+    {
+      constexpr double most_nodes = 2147483647.; // numbers of nodes are of 31 bits
+      constexpr double digits     = 1e-9; // of coordinates; leaves seven for places within a cell
+      double           n_nodes    = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double low = grid.origin[d], high = low + grid.extent[d];
+          const double cell    = grid.extent[d] / grid.n_cells[d];
+          const double largest = std::max(std::abs(low), std::abs(high));
+          n_nodes *= 2. * grid.n_cells[d] + 1.;
+          if (std::isfinite(high) && cell > digits * largest)
+            continue;
+          std::ostringstream problem;
+          problem << "In direction "
+                  << "xyz"[d] << " the cells are " << cell << " m long and the coordinates up to "
+                  << largest
+                  << " m, too large to tell places within a cell apart. Move the scene nearer to "
+                     "the origin (Grid/Origin), or take larger cells.";
+          throw section.error("Extent", problem.str());
+        }
+      if (n_nodes > most_nodes)
+        {
+          std::ostringstream problem;
+          problem << "The grid would have up to " << n_nodes
+                  << " nodes, with those in the middle of edges; there may be " << most_nodes
+                  << ". Take fewer cells.";
+          throw section.error("Cells", problem.str());
+        }
+    }
+
     template <int dim>
     GridParameters<dim>
     read_grid(const ParameterReader &reader)
@@ -71,6 +113,7 @@ namespace kedge
       grid.origin  = point<dim>(section, "Origin");
       grid.extent  = point<dim>(section, "Extent");
       grid.n_cells = counts<dim>(section, "Cells");
+      check_grid(section, grid);
       return grid;
     }
 
@@ -184,117 +227,6 @@ namespace kedge
 
 
 
-    TimeParameters
-    read_time(const ParameterReader &reader)
-    {
-      static const std::map<std::string, SchemeKind> schemes = {
-        {"quasi-static", SchemeKind::quasi_static},
-        {"clc-quasi-static", SchemeKind::clc_quasi_static},
-        {"clc-midpoint", SchemeKind::clc_midpoint},
-        {"midpoint", SchemeKind::midpoint},
-        {"trapezoidal", SchemeKind::trapezoidal},
-        {"newmark", SchemeKind::newmark},
-        {"generalised-alpha", SchemeKind::generalised_alpha}};
-
-      const SectionReader section(reader, {"Time"});
-      TimeParameters      time;
-      time.scheme = schemes.at(section.text("Scheme"));
-      time.start  = section.number("Start");
-      time.end    = section.number("End");
-      if (!(time.end > time.start))
-        throw section.error("End", "It must be later than Start = " + section.text("Start") + ".");
-
-      const auto [kind, value] = parse_step(section.text("Step"), section.constants());
-      time.step_kind           = kind;
-      (kind == StepSizeKind::fixed ? time.step : time.cfl_factor) = value;
-      time.minimum_step_factor = section.number("Smallest step factor");
-
-      time.adapt_step = !section.is_empty("Largest step factor");
-      if (time.adapt_step)
-        time.maximum_step_factor = section.number("Largest step factor");
-
-      time.break_times = section.numbers("Break times");
-      for (const double break_time : time.break_times)
-        if (!(break_time > time.start && break_time <= time.end))
-          throw section.error("Break times", "Each must be later than Start and not after End.");
-      std::sort(time.break_times.begin(), time.break_times.end());
-      time.break_times.erase(std::unique(time.break_times.begin(), time.break_times.end()),
-                             time.break_times.end());
-
-      time.newmark_beta       = section.number("Newmark beta");
-      time.newmark_gamma      = section.number("Newmark gamma");
-      time.spectral_radius    = section.number("Spectral radius");
-      time.carry_acceleration = section.truth("Carry acceleration");
-      return time;
-    }
-
-
-
-    NewtonParameters
-    read_newton(const ParameterReader &reader)
-    {
-      const SectionReader section(reader, {"Newton"});
-      NewtonParameters    newton;
-      newton.tolerance      = section.number("Tolerance");
-      newton.max_iterations = section.whole_number("Iterations");
-      newton.log            = section.truth("Log");
-      return newton;
-    }
-
-    LinearSolverParameters
-    read_linear_solver(const ParameterReader &reader)
-    {
-      static const std::map<std::string, LinearSolverKind> methods = {
-        {"auto", LinearSolverKind::automatic},
-        {"banded", LinearSolverKind::banded},
-        {"direct", LinearSolverKind::direct},
-        {"krylov-ilu", LinearSolverKind::krylov_ilu},
-        {"krylov-amg", LinearSolverKind::krylov_amg},
-        {"krylov-blocks", LinearSolverKind::krylov_blocks}};
-
-      const SectionReader    section(reader, {"Linear solver"});
-      LinearSolverParameters solver;
-      solver.kind           = methods.at(section.text("Method"));
-      solver.tolerance      = section.number("Tolerance");
-      solver.max_iterations = section.whole_number("Iterations");
-      return solver;
-    }
-
-    TransferParameters
-    read_mapping(const ParameterReader &reader)
-    {
-      const SectionReader section(reader, {"Mapping"});
-      TransferParameters  transfer;
-      transfer.velocity_mapping =
-        section.text("Velocity") == "pic" ? VelocityUpdate::pic : VelocityUpdate::flip;
-      transfer.lumping = section.number("Lumping");
-      transfer.audit   = section.truth("Audit");
-      return transfer;
-    }
-
-    StabilisationParameters
-    read_stabilisation(const ParameterReader &reader)
-    {
-      static const std::map<std::string, StabilisationKind> methods = {
-        {"aggregation", StabilisationKind::aggregation},
-        {"ghost", StabilisationKind::ghost},
-        {"none", StabilisationKind::none}};
-
-      const SectionReader     section(reader, {"Stabilisation"});
-      StabilisationParameters stabilisation;
-      stabilisation.method                 = methods.at(section.text("Method"));
-      stabilisation.smallest_filling       = section.number("Smallest filling");
-      stabilisation.ghost_mass_factor      = section.number("Ghost mass factor");
-      stabilisation.ghost_stiffness_factor = section.number("Ghost stiffness factor");
-      if (!section.is_empty("Ghost conductivity factor"))
-        stabilisation.ghost_conductivity_factor = section.number("Ghost conductivity factor");
-      if (!section.is_empty("Ghost storage factor"))
-        stabilisation.ghost_storage_factor = section.number("Ghost storage factor");
-      return stabilisation;
-    }
-
-
-
     OutputParameters
     read_output(const ParameterReader &reader, const TimeParameters &time)
     {
@@ -307,7 +239,14 @@ namespace kedge
       OutputParameters output;
       output.points_every_steps = section.whole_number("Points every steps");
       if (!section.is_empty("Points interval"))
-        output.points_interval = section.number("Points interval");
+        {
+          output.points_interval = section.number("Points interval");
+          // fixed steps that do not divide the interval stay what the user asked for
+          const double n       = output.points_interval / time.step;
+          const bool   divides = std::abs(n - std::round(n)) < 1e-6 * n && n > 0.5;
+          output.hit_output_times =
+            time.adapt_step || (time.step_kind == StepSizeKind::fixed && divides);
+        }
       else if (output.points_every_steps == 0)
         output.points_interval = (time.end - time.start) / default_n_pictures;
       output.fields                 = section.list("Fields");
@@ -384,6 +323,34 @@ namespace kedge
                    "The mean over a cell is made for linear elements, which lock; with the "
                    "quadratic basis take pointwise.");
     }
+    /** What needs several sections. */
+    template <int dim>
+    void
+    read_together(const ParameterReader &reader, Scene<dim> &scene)
+    {
+      UserErrors errors;
+      scale_softening(scene.grid.extent[0] / scene.grid.n_cells[0], scene.materials);
+      if (!errors.attempt([&]() {
+            scene.pore_fluid = read_pore_fluid<dim>(reader, scene);
+          }))
+        errors.throw_if_any(); // the rest would ask for it
+      errors.attempt([&]() {
+        if (scene.linear_solver.kind == LinearSolverKind::krylov_blocks && !scene.pore_fluid)
+          throw SectionReader(reader, {"Linear solver"})
+            .error("Method",
+                   "The blocks are displacements and pore pressures; there is no Pore fluid.");
+      });
+      errors.attempt([&]() {
+        set_elements(reader, scene);
+      });
+      errors.attempt([&]() {
+        check_initial_stress(reader, scene);
+      });
+      errors.attempt([&]() {
+        read_surfaces(reader, scene);
+      });
+      errors.throw_if_any();
+    }
   } // namespace
 
 
@@ -423,36 +390,54 @@ namespace kedge
       throw UserError("A scene with Dimension = " + std::to_string(scene_dimension(file)) +
                       " cannot be read as one of " + std::to_string(dim) + " dimensions.");
 
-    scene.name            = file.scene_name();
-    scene.title           = SectionReader(reader, {}).text("Title");
-    scene.grid            = read_grid<dim>(reader);
-    scene.node_conditions = read_node_conditions<dim>(reader);
-    scene.materials       = read_materials(reader);
-    scale_softening(scene.grid.extent[0] / scene.grid.n_cells[0], scene.materials);
-    scene.bodies =
-      read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
-    scene.contacts      = read_contacts(reader);
+    scene.name  = file.scene_name();
+    scene.title = SectionReader(reader, {}).text("Title");
+    UserErrors errors;
+    // what stands alone, so that the user sees all errors at once
+    const bool has_grid = errors.attempt([&]() {
+      scene.grid = read_grid<dim>(reader);
+    });
+    errors.attempt([&]() {
+      scene.node_conditions = read_node_conditions<dim>(reader);
+    });
+    errors.attempt([&]() {
+      scene.materials = read_materials(reader);
+    });
+    if (has_grid)
+      errors.attempt([&]() {
+        scene.bodies =
+          read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
+      });
+    errors.attempt([&]() {
+      scene.contacts = read_contacts(reader);
+    });
+    errors.attempt([&]() {
+      scene.point_loads = read_point_loads<dim>(reader);
+    });
+    errors.attempt([&]() {
+      scene.tractions = read_tractions<dim>(reader);
+    });
+    const bool has_time = errors.attempt([&]() {
+      scene.time = read_time(reader);
+    });
+    errors.attempt([&]() {
+      scene.probes = read_probes<dim>(reader);
+    });
+    if (has_time)
+      errors.attempt([&]() {
+        scene.output = read_output(reader, scene.time);
+        scene.checks = read_checks(reader, scene.time);
+      });
+    errors.throw_if_any();
+
     scene.body_force    = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
-    scene.point_loads   = read_point_loads<dim>(reader);
-    scene.tractions     = read_tractions<dim>(reader);
-    scene.time          = read_time(reader);
     scene.equilibrium   = {SectionReader(reader, {"Equilibrium"}).whole_number("Steps"),
                            SectionReader(reader, {"Equilibrium"}).number("Duration")};
     scene.newton        = read_newton(reader);
     scene.linear_solver = read_linear_solver(reader);
     scene.transfer      = read_mapping(reader);
     scene.stabilisation = read_stabilisation(reader);
-    scene.pore_fluid    = read_pore_fluid<dim>(reader, scene);
-    if (scene.linear_solver.kind == LinearSolverKind::krylov_blocks && !scene.pore_fluid)
-      throw SectionReader(reader, {"Linear solver"})
-        .error("Method",
-               "The blocks are displacements and pore pressures; there is no Pore fluid.");
-    set_elements(reader, scene);
-    check_initial_stress(reader, scene);
-    scene.output = read_output(reader, scene.time);
-    scene.probes = read_probes<dim>(reader);
-    scene.checks = read_checks(reader, scene.time);
-    read_surfaces(reader, scene);
+    read_together<dim>(reader, scene);
     if (scene.pore_fluid)
       scene.time.pore_theta = SectionReader(reader, {"Pore fluid"}).number("Theta");
     scene.parameters = reader.print();

@@ -218,9 +218,9 @@ namespace kedge
   ValuePattern
   ValuePatterns<dim>::side() const
   {
-    return ValuePattern(dim == 2 ? "left | right | bottom | top, or x- | x+ | y- | y+"
+    return ValuePattern(dim == 2 ? "left | right | bottom | top, or -x | +x | -y | +y"
                                  : "left | right | bottom | top | back | front, "
-                                   "or x- | x+ | y- | y+ | z- | z+",
+                                   "or -x | +x | -y | +y | -z | +z",
                         [](const auto &text) {
                           parse_side<dim>(text);
                         });

@@ -1,11 +1,14 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/base/expression.h>
 #include <kedge/base/nearest_name.h>
+#include <kedge/base/shortened.h>
 #include <kedge/scene/values.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace kedge
@@ -55,6 +58,20 @@ namespace kedge
       name     = dealii::Utilities::trim(text.substr(0, open));
       argument = dealii::Utilities::trim(text.substr(open + 1, text.size() - open - 2));
       return true;
+    }
+
+    /** "; 4/0.3 is 13.33333333" for an expression, nothing for a number. */
+    std::string
+    value_of(const std::string &text, const double number)
+    {
+      double            plain  = 0.;
+      const char *const end    = text.data() + text.size();
+      const auto        result = std::from_chars(text.data(), end, plain);
+      if (result.ec == std::errc() && result.ptr == end)
+        return "";
+      std::ostringstream out;
+      out << "; " << shortened(text, 60) << " is " << std::setprecision(10) << number;
+      return out.str();
     }
 
     void
@@ -117,7 +134,7 @@ namespace kedge
   {
     const double number = evaluate_constant(text, constants);
     if (!range.contains(number))
-      throw UserError("It must be a number" + range.describe() + ".");
+      throw UserError("It must be a number" + range.describe() + value_of(text, number) + ".");
     return number;
   }
 
@@ -131,8 +148,13 @@ namespace kedge
     const double number = evaluate_constant(text, constants);
     const double whole  = std::round(number);
     if (std::abs(number - whole) > rounding_tolerance * std::max(1., std::abs(whole)) ||
-        whole < minimum || whole > std::numeric_limits<unsigned int>::max())
-      throw UserError("It must be a whole number of at least " + std::to_string(minimum) + ".");
+        whole < minimum)
+      throw UserError("It must be a whole number of at least " + std::to_string(minimum) +
+                      value_of(text, number) + ".");
+    if (whole > std::numeric_limits<unsigned int>::max())
+      throw UserError("It must be a whole number of at most " +
+                      std::to_string(std::numeric_limits<unsigned int>::max()) +
+                      value_of(text, number) + ".");
     return static_cast<unsigned int>(whole);
   }
 
@@ -173,8 +195,8 @@ namespace kedge
   parse_choice(const std::string &text, const std::vector<std::string> &choices)
   {
     if (std::find(choices.begin(), choices.end(), text) == choices.end())
-      throw UserError("It must be one of " + join(choices, ", ") + "; did you mean " +
-                      nearest_name(text, choices) + "?");
+      throw UserError("It must be one of " + join(choices, ", ") + "." +
+                      did_you_mean(text, choices));
   }
 
 
@@ -193,17 +215,17 @@ namespace kedge
   parse_side(const std::string &text)
   {
     const std::vector<std::string> words = {"left", "right", "bottom", "top", "back", "front"};
-    const std::vector<std::string> signs = {"x-", "x+", "y-", "y+", "z-", "z+"};
+    const std::vector<std::string> signs = {"-x", "+x", "-y", "+y", "-z", "+z"};
+    const std::vector<std::string> ends  = {"x-", "x+", "y-", "y+", "z-", "z+"};
     std::vector<std::string>       choices;
-    for (const auto &names : {words, signs})
+    for (const auto &names : {words, signs, ends})
       for (unsigned int side = 0; side < 2 * dim; ++side)
         {
           if (text == names[side])
             return side;
           choices.push_back(names[side]);
         }
-    throw UserError("It must be one of " + join(choices, ", ") + "; did you mean " +
-                    nearest_name(text, choices) + "?");
+    throw UserError("It must be one of " + join(choices, ", ") + "." + did_you_mean(text, choices));
   }
 
 
@@ -234,11 +256,9 @@ namespace kedge
       }
     else
       throw UserError("It must be free, fixed, displacement(expression of t), "
-                      "velocity(expression of t) or motion(expression of x, y, z, t, dt); "
-                      "did you mean " +
-                      nearest_name(text.substr(0, text.find('(')),
-                                   {"free", "fixed", "displacement", "velocity", "motion"}) +
-                      "?");
+                      "velocity(expression of t) or motion(expression of x, y, z, t, dt)." +
+                      did_you_mean(text.substr(0, text.find('(')),
+                                   {"free", "fixed", "displacement", "velocity", "motion"}));
     return condition;
   }
 
@@ -249,9 +269,8 @@ namespace kedge
   {
     std::string name, argument;
     if (!split_call(text, name, argument) || (name != "strain" && name != "stress"))
-      throw UserError("It must be strain(expression of t) or stress(expression of t); did you "
-                      "mean " +
-                      nearest_name(text.substr(0, text.find('(')), {"strain", "stress"}) + "?");
+      throw UserError("It must be strain(expression of t) or stress(expression of t)." +
+                      did_you_mean(text.substr(0, text.find('(')), {"strain", "stress"}));
     Expression(argument, {"t"}, constants);
     return {name == "stress", argument};
   }

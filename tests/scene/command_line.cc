@@ -79,9 +79,9 @@ TEST(SceneCommandLine, SomeOptionsNeedNoScene)
 
 TEST(SceneCommandLine, ErrorsNameTheNearestOption)
 {
-  EXPECT_NE(message_of({"a.prm", "--outptu", "x"}).find("Did you mean --output?"),
+  EXPECT_NE(message_of({"a.prm", "--outptu", "x"}).find("Did you mean '--output'?"),
             std::string::npos);
-  EXPECT_NE(message_of({"a.prm", "--valdate"}).find("--validate?"), std::string::npos);
+  EXPECT_NE(message_of({"a.prm", "--valdate"}).find("'--validate'?"), std::string::npos);
   EXPECT_NE(message_of({"a.prm", "-o"}).find("-o DIR"), std::string::npos);
   EXPECT_NE(message_of({"a.prm", "--output="}).find("empty"), std::string::npos);
   EXPECT_NE(message_of({"a.prm", "--strict=1"}).find("no value"), std::string::npos);

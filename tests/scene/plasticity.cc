@@ -179,7 +179,7 @@ TEST(ScenePlasticity, YieldEntriesThatDoNotFitAreRefused)
     expect_parts(message_of(
                    with_stiff("set Model = von_mises\n    set Yield radius rho_y = " + value)),
                  {"Materials/stiff/Yield radius rho_y = " + value, "greater than 0"});
-  expect_parts(message_of(with_stiff("set Model = von_misses")), {"did you mean von_mises?"});
+  expect_parts(message_of(with_stiff("set Model = von_misses")), {"Did you mean 'von_mises'?"});
 }
 
 TEST(ScenePlasticity, MotionsOfNodesAreRead)
@@ -191,7 +191,7 @@ TEST(ScenePlasticity, MotionsOfNodesAreRead)
   EXPECT_EQ(component.expression, "x*(exp(dt) - h) + t");
   const std::string entry = "Node conditions/wall/Component x = ";
   expect_parts(message_of(full_scene, {entry + "motion(X)"}), {"\"X\"", "motion(expression"});
-  expect_parts(message_of(full_scene, {entry + "moton(x)"}), {"did you mean motion?"});
+  expect_parts(message_of(full_scene, {entry + "moton(x)"}), {"Did you mean 'motion'?"});
   expect_parts(message_of(full_scene, {"Constants/dt = 2", entry + "motion(x*dt)"}),
                {"give the constant dt another name"});
 }

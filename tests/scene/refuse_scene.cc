@@ -17,15 +17,15 @@ TEST(SceneRead, UnknownNamesAreAnsweredWithTheNearest)
   expect_parts(message_of(with("Material = stiff", "Material = stif")),
                {"Bodies/beam/Material = stif", "Materials/stif", "Did you mean 'stiff'?"});
   expect_parts(message_of(with("Scheme = generalised-alpha", "Scheme = generalized-alpha")),
-               {"Time/Scheme = generalized-alpha", "did you mean generalised-alpha?"});
+               {"Time/Scheme = generalized-alpha", "Did you mean 'generalised-alpha'?"});
   expect_parts(message_of(with("displacement, det_F", "displacement, detF")),
-               {"Output/Fields", "did you mean det_F?"});
-  expect_parts(message_of(with("Side = x-", "Side = lft")), {"did you mean left?"});
+               {"Output/Fields", "Did you mean 'det_F'?"});
+  expect_parts(message_of(with("Side = x-", "Side = lft")), {"Did you mean 'left'?"});
   expect_parts(message_of(with("Side = x-", "Side = back")), {"one of left, right, bottom, top"});
   expect_parts(message_of(with("probe.tip.", "probe.tp.")),
                {"Checks/deflection/Quantity", "Did you mean 'tip'?"});
-  expect_parts(message_of(with("drift(", "drfit(")), {"did you mean drift?"});
-  expect_parts(message_of(with("velocity(sin", "velocty(sin")), {"did you mean velocity?"});
+  expect_parts(message_of(with("drift(", "drfit(")), {"Did you mean 'drift'?"});
+  expect_parts(message_of(with("velocity(sin", "velocty(sin")), {"Did you mean 'velocity'?"});
   expect_parts(message_of(full_scene, {"Bodies/bem/Points per cell = 2"}),
                {"option --set: Bodies/bem/", "Did you mean 'beam'?"});
   expect_parts(message_of(full_scene, {"Boddies/beam/Basis = gimp"}),
@@ -71,7 +71,7 @@ TEST(SceneRead, WrongValuesAreAnsweredWithWhatIsAllowed)
     {"Node conditions/pin/Where", "x = 0", "=="},
     {"Body force/Acceleration", "0; -g", "\"g\""},
     {"Point loads/end load/Points", "0", "at least 1"},
-    {"Tractions/top/Side", "up", "did you mean top?"},
+    {"Tractions/top/Side", "up", "Did you mean 'top'?"},
     {"Time/End", "1", "later than Start = 1"},
     {"Time/Step", "0", "greater than 0"},
     {"Time/Step", "cfl", "write for example 15 cfl"},
@@ -83,7 +83,7 @@ TEST(SceneRead, WrongValuesAreAnsweredWithWhatIsAllowed)
     {"Newton/Tolerance", "0", "greater than 0"},
     {"Newton/Iterations", "0", "at least 1"},
     {"Mapping/Lumping", "-1", "at least 0"},
-    {"Output/Formats", "vtk", "did you mean vtu?"},
+    {"Output/Formats", "vtk", "Did you mean 'vtu'?"},
     {"Output/Points interval", "-1", "at least 0"},
     {"Probes/tip/Face", "left", "Only one of Place and Face"},
     {"Probes/tip/Place", "", "Either Place or Face"},

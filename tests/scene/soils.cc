@@ -117,7 +117,7 @@ TEST(SceneSoils, EntriesThatDoNotFitAreRefused)
   expect_parts(path_message({clay + "Surface gamma = 0"}), {"greater than 0"});
   expect_parts(path_message({clay + "Volume change = cell mean"}), {"pointwise"});
   expect_parts(path_message({clay + "Yield radius rho_y = 1"}), {"did you mean von_mises?"});
-  expect_parts(path_message({clay + "Model = critical state"}), {"did you mean critical_state?"});
+  expect_parts(path_message({clay + "Model = critical state"}), {"Did you mean 'critical_state'?"});
 }
 
 TEST(SceneSoils, ElementTestsAreRead)
@@ -138,7 +138,7 @@ TEST(SceneSoils, ElementTestsThatDoNotFitAreRefused)
 {
   expect_parts(path_message({"Path/Control = stress(0); strain(0)"}), {"2 parts, not three"});
   expect_parts(path_message({"Path/Control = stress(0); strain(0); stran(t)"}),
-               {"did you mean strain?"});
+               {"Did you mean 'strain'?"});
   expect_parts(path_message({"Path/Control = stress(x); strain(0); strain(t)"}), {"\"x\""});
   expect_parts(path_message({"Path/Logarithmic strain = 0; 0; 0"}), {"Only one of"});
   expect_parts(path_message({"Path/Drainage = drained"}), {"Fluid bulk modulus", "undrained"});

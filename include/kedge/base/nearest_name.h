@@ -14,6 +14,14 @@ namespace kedge
    */
   std::string
   nearest_name(const std::string &name, const std::vector<std::string> &candidates);
+
+  /**
+   * " Did you mean 'X'?" with the candidate that @p name is like; nothing if it is like
+   * none. Alike are names that differ in few letters for their length, and names of which
+   * one holds the other's words; case and the kind of blanks (_ - and spaces) do not count.
+   */
+  std::string
+  did_you_mean(const std::string &name, const std::vector<std::string> &candidates);
 } // namespace kedge
 
 #endif

@@ -21,9 +21,10 @@ namespace kedge
 
   struct OutputParameters
   {
-    double                   points_interval    = 0; ///< simulated time between outputs [s]; 0: off
-    unsigned int             points_every_steps = 0; ///< 0: off
-    std::vector<std::string> fields;                 ///< names of point fields
+    double       points_interval    = 0;     ///< simulated time between outputs [s]; 0: off
+    bool         hit_output_times   = false; ///< whether steps are shortened to end at output times
+    unsigned int points_every_steps = 0;     ///< 0: off
+    std::vector<std::string> fields;         ///< names of point fields
     bool                     vtu                    = true;
     bool                     hdf5                   = false;
     bool                     grid                   = false;

@@ -10,6 +10,7 @@ namespace kedge
   /** What the user asked for on the command line: kedge SCENE.prm [options]. */
   struct CommandLine
   {
+    std::vector<std::string>    arguments; ///< as they are, the program's name first
     std::string                 scene;     ///< path; "-" is standard input
     std::string                 output;    ///< -o, --output; empty: output/<scene name>
     std::vector<std::string>    settings;  ///< -s, --set, each "Section/Name = value"

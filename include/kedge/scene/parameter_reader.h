@@ -8,6 +8,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,8 +30,8 @@ namespace kedge
    * known, every value is allowed, everything that must be given is there.
    * The values stand in a deal.II ParameterHandler, defaults included.
    *
-   * @throws UserError for the first entry that does not fit, with its full
-   * name, file and line, value, what is allowed, and the nearest valid name.
+   * @throws UserError for all entries that do not fit (SeveralUserErrors), each with its full
+   * name, file and line, value, what is allowed, and a valid name that is like it.
    */
   class ParameterReader
   {
@@ -54,6 +55,10 @@ namespace kedge
     const std::map<std::string, double> &
     constants() const;
 
+    /** "Bodies/beam/Geometry" */
+    static std::string
+    full_name(const std::vector<std::string> &section, const std::string &entry);
+
     /** All values, defaults included, as a parameter file. */
     std::string
     print() const;
@@ -64,13 +69,25 @@ namespace kedge
 
   private:
     void
-    check_sections() const;
+    check() const;
+
+    void
+    check_section(const ParameterSection &section) const;
 
     void
     check_entry(const ParameterEntry &entry) const;
 
+    /** Whether a section of this path is opened in the file. */
+    bool
+    is_opened(const std::vector<std::string> &path) const;
+
+    /** All sections that the scene has, with the names that the user gave. */
     void
-    declare();
+    for_each_declared(const std::function<void(const std::vector<std::string> &,
+                                               const SectionDeclaration &)> &action) const;
+
+    void
+    declare(const std::vector<std::string> &path, const SectionDeclaration &section);
 
     void
     require(const std::vector<std::string> &section, const EntryDeclaration &entry) const;

@@ -72,7 +72,7 @@ namespace kedge
   bool
   parse_truth(const std::string &text);
 
-  /** A side of a box: left, right, bottom, top, back, front or x-, x+, .. z+. */
+  /** A side of a box: left, right, bottom, top, back, front; -x, +x, .. +z; or x-, x+, .. z+. */
   template <int dim>
   unsigned int
   parse_side(const std::string &text);
