@@ -357,11 +357,26 @@ kedge_add_scene_test(refusal.unwritable_folder tests/scenes/bad_input/good.prm
   OPTIONS --output=/dev/null/run EXPECT_EXIT 1
   EXPECT_STDERR "output folder '/dev/null/run'.*--output" LABELS refusal)
 kedge_add_scene_test(refusal.unknown_option tests/scenes/bad_input/good.prm
-  OPTIONS --ouput=here EXPECT_EXIT 1 EXPECT_STDERR "Did you mean --output\\?" LABELS refusal)
+  OPTIONS --ouput=here EXPECT_EXIT 1 EXPECT_STDERR "Did you mean '--output'\\?" LABELS refusal)
 kedge_add_test(refusal.checkpoints LABELS scene refusal
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/scenes/spoilt_checkpoints.py
     $<TARGET_FILE:kedge> ${CMAKE_CURRENT_SOURCE_DIR}/scenes/bad_input/good.prm
     ${CMAKE_CURRENT_BINARY_DIR}/scenes/spoilt_checkpoints)
+
+kedge_add_refusal_test(many_errors
+  "(?s)5 errors.*Girdd.*'Grid'.*4/0.3 is 13.33.*Densty.*'Density'.*neo_hooke.*Geometry must be")
+kedge_add_scene_test(refusal.no_support_3d tests/scenes/bad_input/no_support_3d.prm
+  OPTIONS --validate EXPECT_EXIT 1
+  EXPECT_STDERR "base \\(bottom, -y\\).*In 3D bottom and top are the sides -y and \\+y" LABELS refusal)
+kedge_add_test(first_hour LABELS scene refusal
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/first_hour.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/first_hour)
+
+# --- Random and damaged scenes: two minutes here, longer by hand -----------------
+kedge_add_test(fuzz LABELS scene refusal TIMEOUT 240
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/fuzz.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR}/prm ${CMAKE_CURRENT_BINARY_DIR}/fuzz
+    --cases 160 --seconds 120)
 
 # --- The short part of the stability bench --------------------------------------
 # Every case must finish or say why it stopped, and keep its books of energy to

@@ -31,8 +31,8 @@ namespace kedge
 
 
   template <int dim>
-  AuditWriter<dim>::AuditWriter(const RunFolder                    &folder,
-                                const std::optional<std::uint64_t> &resume_at)
+  AuditWriter<dim>::AuditWriter(const RunFolder                  &folder,
+                                const std::optional<CsvPosition> &resume_at)
   {
     std::vector<std::string> names = {"step", "time"};
     add_names(names, dim, "p2g");
@@ -72,10 +72,10 @@ namespace kedge
 
 
   template <int dim>
-  std::uint64_t
+  CsvPosition
   AuditWriter<dim>::position()
   {
-    return file ? file->position() : 0;
+    return file ? file->position() : CsvPosition();
   }
 
   template class AuditWriter<2>;

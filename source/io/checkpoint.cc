@@ -251,8 +251,11 @@ namespace kedge
                                         folder.is_root() ? numbers_in(location, "state-")
                                                          : std::vector<std::uint64_t>());
     if (numbers.empty())
-      throw UserError("There is no checkpoint in '" + location.string() +
-                      "' to resume from: the run ended before its first one." + remedy_afresh);
+      throw UserError("There is no checkpoint in '" + location.string() + "' to resume from: " +
+                      (numbers_in(location, "cleared-").empty()
+                         ? "the run ended before its first one."
+                         : "a later run was stopped while it replaced this one.") +
+                      remedy_afresh);
 
     std::string damages;
     for (const std::uint64_t number : numbers)

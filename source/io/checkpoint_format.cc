@@ -4,7 +4,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
-#include <zlib.h>
 
 namespace kedge
 {
@@ -98,14 +97,6 @@ namespace kedge
       std::size_t        position = 0;
     };
   } // namespace
-
-
-
-  std::uint64_t
-  crc32_of(const std::string &content)
-  {
-    return crc32_z(0, reinterpret_cast<const Bytef *>(content.data()), content.size());
-  }
 
 
 
@@ -214,9 +205,13 @@ namespace kedge
       throw std::runtime_error("its manifest is of another format");
     std::size_t n_ranks = 0;
     in >> word >> manifest.dim >> word >> manifest.n_state_values >> word >> n_ranks;
+    if (!in || n_ranks > end) // each rank has a line
+      throw std::runtime_error("its manifest is not whole");
     manifest.files.resize(n_ranks);
     for (File &file : manifest.files)
       in >> word >> file.n_bytes >> file.crc;
+    if (!in)
+      throw std::runtime_error("its manifest is not whole");
     return manifest;
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <limits>
@@ -35,10 +36,11 @@ namespace kedge
     void
     check_before_resume(const std::filesystem::path &file,
                         const std::string           &header,
-                        const std::uint64_t          position)
+                        const CsvPosition           &at)
     {
-      const std::string remedy  = " The run cannot be resumed; start it afresh without --resume.";
-      const std::string content = read_file(file);
+      const std::string remedy   = " The run cannot be resumed; start it afresh without --resume.";
+      const std::string content  = read_file(file);
+      const auto        position = at.n_bytes;
       if (content.compare(0, header.size(), header) != 0)
         throw UserError("'" + file.string() +
                         "' does not have the columns of this run: it belongs to another scene." +
@@ -47,18 +49,19 @@ namespace kedge
         throw UserError("'" + file.string() + "' has " + std::to_string(content.size()) +
                         " bytes, the checkpoint was written at " + std::to_string(position) +
                         ": somebody has shortened it." + remedy);
-      if (content[position - 1] != '\n')
+      if (content[position - 1] != '\n' ||
+          (at.checksum && *at.checksum != crc32_of(content.substr(0, position))))
         throw UserError("'" + file.string() + "' has been changed since the checkpoint." + remedy);
     }
   } // namespace
 
 
 
-  CsvFile::CsvFile(const std::filesystem::path        &file_name,
-                   const std::vector<std::string>     &columns,
-                   const std::optional<std::uint64_t> &position)
+  CsvFile::CsvFile(const std::filesystem::path      &file_name,
+                   const std::vector<std::string>   &columns,
+                   const std::optional<CsvPosition> &position)
     : file(file_name)
-    , n_columns(columns.size())
+    , columns(columns)
   {
     const std::string header = header_line(columns);
     if (position)
@@ -71,8 +74,11 @@ namespace kedge
       fail(file);
     if (!position)
       write(header);
-    else if (::ftruncate(descriptor, static_cast<off_t>(*position)) == 0)
-      length = *position;
+    else if (::ftruncate(descriptor, static_cast<off_t>(position->n_bytes)) == 0)
+      {
+        length   = position->n_bytes;
+        checksum = crc32_of(read_file(file));
+      }
     else
       fail(file);
   }
@@ -90,6 +96,8 @@ namespace kedge
   CsvFile &
   CsvFile::operator<<(const double value)
   {
+    if (!std::isfinite(value) && bad_number.empty() && n_filled < columns.size())
+      bad_number = columns[n_filled] + " is " + exact_text(value);
     row += (n_filled++ == 0 ? "" : ",") + exact_text(value);
     return *this;
   }
@@ -105,12 +113,21 @@ namespace kedge
 
 
 
+  const std::string &
+  CsvFile::not_finite() const
+  {
+    return bad_number;
+  }
+
+
+
   void
   CsvFile::end_row()
   {
-    AssertThrow(n_filled == n_columns, dealii::ExcDimensionMismatch(n_filled, n_columns));
+    AssertThrow(n_filled == columns.size(), dealii::ExcDimensionMismatch(n_filled, columns.size()));
     write(row + '\n');
     row.clear();
+    bad_number.clear();
     n_filled = 0;
   }
 
@@ -127,16 +144,17 @@ namespace kedge
         done += written < 0 ? 0 : static_cast<std::size_t>(written);
       }
     length += text.size();
+    checksum = crc32_of(text, checksum);
   }
 
 
 
-  std::uint64_t
+  CsvPosition
   CsvFile::position()
   {
     if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
       fail(file);
-    return length;
+    return {length, checksum};
   }
 
 

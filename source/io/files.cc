@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <fstream>
 #include <unistd.h>
+#include <zlib.h>
 
 namespace kedge
 {
@@ -113,6 +114,16 @@ namespace kedge
     if (!in)
       fail("read", file);
     return content;
+  }
+
+
+
+  std::uint64_t
+  crc32_of(const std::string &content, const std::uint64_t of_what_came_before)
+  {
+    return crc32_z(static_cast<uLong>(of_what_came_before),
+                   reinterpret_cast<const Bytef *>(content.data()),
+                   content.size());
   }
 
 

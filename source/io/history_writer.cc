@@ -8,12 +8,8 @@ namespace kedge
   std::vector<std::string>
   history_columns(const std::vector<Ledger::Column> &books)
   {
-    std::vector<std::string> names = {"step",
-                                      "time",
-                                      "time_step",
-                                      "newton_iterations",
-                                      "linear_iterations",
-                                      "rejected_attempts"};
+    std::vector<std::string> names =
+      {"step", "time", "time_step", "newton_iterations", "linear_iterations", "rejected_attempts"};
     for (const auto &column : books)
       names.push_back(column.name);
     names.push_back("wall_time");
@@ -22,9 +18,9 @@ namespace kedge
 
 
 
-  HistoryWriter::HistoryWriter(const RunFolder                    &folder,
-                               const std::vector<Ledger::Column>  &books,
-                               const std::optional<std::uint64_t> &resume_at)
+  HistoryWriter::HistoryWriter(const RunFolder                   &folder,
+                               const std::vector<Ledger::Column> &books,
+                               const std::optional<CsvPosition>  &resume_at)
     : books(books)
   {
     run_on_root(folder.communicator(), [&]() {
@@ -53,9 +49,9 @@ namespace kedge
 
 
 
-  std::uint64_t
+  CsvPosition
   HistoryWriter::position()
   {
-    return file ? file->position() : 0;
+    return file ? file->position() : CsvPosition();
   }
 } // namespace kedge

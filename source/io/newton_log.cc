@@ -6,7 +6,7 @@
 
 namespace kedge
 {
-  NewtonLog::NewtonLog(const RunFolder &folder, const std::optional<std::uint64_t> &resume_at)
+  NewtonLog::NewtonLog(const RunFolder &folder, const std::optional<CsvPosition> &resume_at)
   {
     const std::vector<std::string> columns =
       {"step", "time", "accepted", "iteration", "residual", "correction", "ratio", "order"};
@@ -41,9 +41,9 @@ namespace kedge
 
 
 
-  std::uint64_t
+  CsvPosition
   NewtonLog::position()
   {
-    return file ? file->position() : 0;
+    return file ? file->position() : CsvPosition();
   }
 } // namespace kedge

@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/io/collective.h>
+#include <kedge/io/files.h>
 #include <kedge/io/probe_writer.h>
 
 #include <deal.II/base/exceptions.h>
@@ -53,10 +54,10 @@ namespace kedge
 
 
   template <int dim>
-  ProbeWriter<dim>::ProbeWriter(const RunFolder                    &folder,
-                                const std::vector<Probe>           &probes,
-                                const std::optional<std::uint64_t> &resume_at,
-                                const bool                          saturated)
+  ProbeWriter<dim>::ProbeWriter(const RunFolder                  &folder,
+                                const std::vector<Probe>         &probes,
+                                const std::optional<CsvPosition> &resume_at,
+                                const bool                        saturated)
     : communicator(folder.communicator())
     , all(quantities<dim>(saturated))
   {
@@ -150,11 +151,11 @@ namespace kedge
 
 
   template <int dim>
-  void
+  std::string
   ProbeWriter<dim>::end_row(const double time)
   {
     if (empty())
-      return;
+      return "";
     std::vector<double> total(sums.size());
     dealii::Utilities::MPI::sum(sums, communicator, total);
 
@@ -165,13 +166,23 @@ namespace kedge
                                      "' lost material points: the weights found sum to " +
                                      std::to_string(total[probe * (n_columns + 1) + n_columns]) +
                                      " instead of 1."));
+    for (std::size_t i = 0; i < total.size(); ++i)
+      if (!std::isfinite(total[i]))
+        {
+          const PointQuantity<dim> &quantity = all[i % (n_columns + 1)];
+          for (const auto &component : quantity.field->components())
+            if (component.index == quantity.index)
+              return quantity.field->component_name(component) + " at the probe '" +
+                     names[i / (n_columns + 1)] + "' is " + exact_text(total[i]);
+        }
     if (!file)
-      return;
+      return "";
     *file << time;
     for (std::size_t i = 0; i < total.size(); ++i)
       if (i % (n_columns + 1) != n_columns)
         *file << total[i];
     file->end_row();
+    return "";
   }
 
 
@@ -192,10 +203,10 @@ namespace kedge
 
 
   template <int dim>
-  std::uint64_t
+  CsvPosition
   ProbeWriter<dim>::position()
   {
-    return file ? file->position() : 0;
+    return file ? file->position() : CsvPosition();
   }
 
 

@@ -5,28 +5,6 @@
 
 namespace kedge
 {
-  namespace
-  {
-    /** 42s, 3m 07s, 2h 05m, 3d 04h. */
-    std::string
-    duration(const double seconds)
-    {
-      const auto n = static_cast<unsigned long>(std::llround(std::min(seconds, 1e9)));
-      char       text[48];
-      if (n < 60)
-        std::snprintf(text, sizeof(text), "%lus", n);
-      else if (n < 3600)
-        std::snprintf(text, sizeof(text), "%lum %02lus", n / 60, n % 60);
-      else if (n < 86400)
-        std::snprintf(text, sizeof(text), "%luh %02lum", n / 3600, n / 60 % 60);
-      else
-        std::snprintf(text, sizeof(text), "%lud %02luh", n / 86400, n / 3600 % 24);
-      return text;
-    }
-  } // namespace
-
-
-
   Progress::Progress(const RunFolder &folder,
                      const double     interval,
                      const double     start_time,
@@ -38,6 +16,32 @@ namespace kedge
     , start(Clock::now())
     , due(start)
   {}
+
+
+
+  std::string
+  Progress::duration(const double seconds)
+  {
+    const auto n = static_cast<unsigned long>(std::llround(std::min(seconds, 1e9)));
+    char       text[48];
+    if (n < 60)
+      std::snprintf(text, sizeof(text), "%lus", n);
+    else if (n < 3600)
+      std::snprintf(text, sizeof(text), "%lum %02lus", n / 60, n % 60);
+    else if (n < 86400)
+      std::snprintf(text, sizeof(text), "%luh %02lum", n / 3600, n / 60 % 60);
+    else
+      std::snprintf(text, sizeof(text), "%lud %02luh", n / 86400, n / 3600 % 24);
+    return text;
+  }
+
+
+
+  bool
+  Progress::is_due() const
+  {
+    return folder.is_root() && Clock::now() >= due;
+  }
 
 
 
@@ -69,10 +73,11 @@ namespace kedge
     const double done    = row.time - start_time;
     const double to_go   = done > 0 ? seconds * std::max(0., end_time - row.time) / done : -1.;
     folder.log() << line(row, end_time, to_go) << std::endl;
-    any          = true;
-    printed_step = row.step;
-    due          = now + std::chrono::duration_cast<Clock::duration>(
-                  std::chrono::duration<double>(std::min(interval, 1e9)));
+    const double pause = interval > 0. ? std::max(interval, 0.01 * seconds) : 0.;
+    any                = true;
+    printed_step       = row.step;
+    due                = now + std::chrono::duration_cast<Clock::duration>(
+                  std::chrono::duration<double>(std::min(pause, 1e9)));
   }
 
 

@@ -3,15 +3,9 @@
 #include <kedge/io/files.h>
 #include <kedge/io/run_folder.h>
 
-#include <boost/iostreams/stream.hpp>
-#include <boost/iostreams/tee.hpp>
-
 #include <deal.II/base/mpi.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iostream>
+#include <algorithm>
 #include <regex>
 #include <vector>
 
@@ -31,7 +25,7 @@ namespace kedge
         "(history|probes|newton|transfer_audit)\\.csv|(points|grid)\\.pvd|points\\.xdmf|summary\\.json|"
         "parameters\\.prm|log\\.txt|"
         "(points/points|grid/grid)-[0-9]+(\\.[0-9]+)?\\.(vtu|pvtu|h5)|"
-        "checkpoint/(state|unfinished)-[0-9]+/(manifest\\.txt|rank-[0-9]+\\.bin)");
+        "checkpoint/(state|unfinished|cleared)-[0-9]+/(manifest\\.txt|rank-[0-9]+\\.bin)");
       const bool temporary = fs::path(name).extension() == ".new";
       return std::regex_match(temporary ? name.substr(0, name.size() - 4) : name, names);
     }
@@ -39,7 +33,8 @@ namespace kedge
     bool
     is_folder_of_kedge(const std::string &name)
     {
-      static const std::regex names("points|grid|checkpoint|checkpoint/(state|unfinished)-[0-9]+");
+      static const std::regex names(
+        "points|grid|checkpoint|checkpoint/(state|unfinished|cleared)-[0-9]+");
       return std::regex_match(name, names);
     }
 
@@ -78,8 +73,9 @@ namespace kedge
                         ". Choose another one with --output.");
     }
 
+    /** Throws UserError if the folder holds files that look like a run's and are not. */
     void
-    begin_fresh_run(const fs::path &folder)
+    refuse_foreign_files(const fs::path &folder)
     {
       std::vector<fs::path> files, folders;
       find_output(folder, "", files, folders);
@@ -88,8 +84,46 @@ namespace kedge
                         files.front().lexically_relative(folder).string() +
                         "', which no run of kedge has written and which this run would replace. "
                         "Move it away or choose another folder with --output.");
+    }
 
-      write_file(folder / mark, "The output of a run of kedge; the next run may replace it.\n");
+    /** Folders of states whose names begin with @p prefix, newest first. */
+    std::vector<fs::path>
+    states_in(const fs::path &checkpoints, const std::string &prefix)
+    {
+      std::vector<fs::path> states;
+      for (const fs::directory_entry &entry : fs::directory_iterator(checkpoints))
+        if (entry.path().filename().string().rfind(prefix, 0) == 0 &&
+            fs::is_directory(entry.symlink_status()))
+          states.push_back(entry.path());
+      std::sort(states.rbegin(), states.rend());
+      return states;
+    }
+
+    /**
+     * Makes the states of the earlier run, newest first, such that nobody resumes from
+     * them: each by one renaming, so that a kill at any moment leaves a run that can be
+     * resumed as a whole, or none.
+     */
+    void
+    retire_states(const fs::path &checkpoints)
+    {
+      for (const fs::path &state : states_in(checkpoints, "state-"))
+        {
+          const fs::path retired = checkpoints / ("cleared-" + state.filename().string().substr(6));
+          std::error_code error;
+          fs::remove(retired, error); // one that is empty but for foreign files stays, and is said
+          fs::rename(state, retired);
+        }
+    }
+
+    /** Removes a run's files from a folder, and the folders that are then empty. */
+    void
+    remove_output(const fs::path &folder, const std::string &below)
+    {
+      if (!fs::is_directory(fs::symlink_status(folder / below)))
+        return;
+      std::vector<fs::path> files, folders;
+      find_output(folder, below, files, folders);
       for (const fs::path &file : files)
         fs::remove(file);
       std::error_code not_empty;
@@ -97,45 +131,44 @@ namespace kedge
         fs::remove(subfolder, not_empty);
     }
 
+    /** Removes what an earlier run has left. */
     void
+    clear(const fs::path &folder)
+    {
+      const fs::path checkpoints = folder / "checkpoint";
+      if (fs::is_directory(fs::symlink_status(checkpoints)))
+        {
+          for (const fs::path &old : states_in(checkpoints, "cleared-"))
+            remove_output(folder, "checkpoint/" + old.filename().string());
+          retire_states(checkpoints);
+        }
+      remove_output(folder, "");
+    }
+
+    std::unique_ptr<FolderLock>
     open_folder(const fs::path &folder, const RunFolder::Mode mode)
     {
-      if (mode == RunFolder::Mode::resume && !fs::exists(folder / mark))
+      std::error_code error;
+      if (mode == RunFolder::Mode::resume && !fs::exists(folder / mark, error))
         throw UserError("There is no run to resume in '" + folder.string() +
                         "'. Name its folder with --output or start afresh without --resume.");
       make_folder(folder);
       try
         {
           if (mode == RunFolder::Mode::fresh)
-            begin_fresh_run(folder);
-          else
-            write_file(folder / mark, read_file(folder / mark));
+            refuse_foreign_files(folder);
+          auto lock = std::make_unique<FolderLock>(folder / mark);
+          if (mode == RunFolder::Mode::fresh)
+            clear(folder);
+          return lock;
         }
-      catch (const fs::filesystem_error &error)
+      catch (const fs::filesystem_error &failure)
         {
           throw UserError("Cannot replace the earlier run in '" + folder.string() +
-                          "': " + error.code().message() + ". Choose another one with --output.");
+                          "': " + failure.code().message() + ". Choose another one with --output.");
         }
     }
   } // namespace
-
-
-
-  struct RunFolder::Log
-  {
-    using Tee = boost::iostreams::tee_device<std::ostream, std::ofstream>;
-
-    Log(const fs::path &path, const bool append)
-      : file(path, append ? std::ios::app : std::ios::trunc)
-    {
-      if (!file)
-        throw UserError("Cannot write '" + path.string() + "': " + std::strerror(errno) + ".");
-      stream.open(Tee(std::cout, file));
-    }
-
-    std::ofstream                 file;
-    boost::iostreams::stream<Tee> stream;
-  };
 
 
 
@@ -147,8 +180,8 @@ namespace kedge
     , silence(nullptr)
   {
     run_on_root(communicator, [&]() {
-      open_folder(folder, mode);
-      tee = std::make_unique<Log>(path("log.txt"), mode == Mode::resume);
+      lock   = open_folder(folder, mode);
+      stream = std::make_unique<LogStream>(path("log.txt"), mode == Mode::resume);
     });
   }
 
@@ -201,7 +234,17 @@ namespace kedge
   std::ostream &
   RunFolder::log() const
   {
-    return root ? static_cast<std::ostream &>(tee->stream) : silence;
+    return root ? static_cast<std::ostream &>(*stream) : silence;
+  }
+
+
+
+  void
+  RunFolder::check_log() const
+  {
+    run_on_root(mpi_communicator, [&]() {
+      stream->check();
+    });
   }
 
 

@@ -1,7 +1,7 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/points/attachment_checks.h>
 
-#include <set>
+#include <algorithm>
 
 namespace kedge
 {
@@ -87,34 +87,40 @@ namespace kedge
 
 
   template <int dim>
-  std::vector<std::string>
-  idle_node_conditions(const std::vector<NodeConditionParameters<dim>> &conditions,
-                       const std::map<std::string, double>             &constants,
-                       const Lattice<dim>                              &lattice,
-                       const std::vector<PointOrigin<dim>>             &points)
+  std::vector<std::size_t>
+  count_held_nodes(const std::vector<NodeConditionParameters<dim>> &conditions,
+                   const std::map<std::string, double>             &constants,
+                   const Lattice<dim>                              &lattice,
+                   const std::vector<PointOrigin<dim>>             &points)
   {
-    std::set<LatticeIndex<dim>> nodes;
+    const auto make_unique = [](std::vector<LatticeIndex<dim>> &indices) {
+      std::sort(indices.begin(), indices.end());
+      indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    };
+    std::vector<LatticeIndex<dim>> cells, nodes;
     for (const auto &point : points)
-      {
-        const auto cell = lattice.cell_of(point.location);
-        for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-          {
-            LatticeIndex<dim> node = cell;
-            for (int d = 0; d < dim; ++d)
-              node[d] += static_cast<int>((corner >> d) & 1u);
-            nodes.insert(node);
-          }
-      }
-    std::vector<std::string> idle;
+      if (const auto cell = lattice.cell_of(point.location); cells.empty() || cells.back() != cell)
+        cells.push_back(cell); // points of a cell often stand together
+    make_unique(cells);
+    for (const auto &cell : cells)
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        {
+          LatticeIndex<dim> node = cell;
+          for (int d = 0; d < dim; ++d)
+            node[d] += static_cast<int>((corner >> d) & 1u);
+          nodes.push_back(node);
+        }
+    make_unique(nodes);
+    std::vector<std::size_t> n_held;
     for (const auto &condition : conditions)
       {
         const Expression where = where_of(condition, constants);
-        if (std::none_of(nodes.begin(), nodes.end(), [&](const LatticeIndex<dim> &node) {
-              return holds<dim>(condition, where, lattice, node);
-            }))
-          idle.push_back(condition.name);
+        n_held.push_back(
+          std::count_if(nodes.begin(), nodes.end(), [&](const LatticeIndex<dim> &node) {
+            return holds<dim>(condition, where, lattice, node);
+          }));
       }
-    return idle;
+    return n_held;
   }
 
   template void
@@ -126,11 +132,11 @@ namespace kedge
   check_node_conditions(const std::vector<NodeConditionParameters<2>> &,
                         const std::map<std::string, double> &,
                         const Lattice<2> &);
-  template std::vector<std::string>
-  idle_node_conditions(const std::vector<NodeConditionParameters<2>> &,
-                       const std::map<std::string, double> &,
-                       const Lattice<2> &,
-                       const std::vector<PointOrigin<2>> &);
+  template std::vector<std::size_t>
+  count_held_nodes(const std::vector<NodeConditionParameters<2>> &,
+                   const std::map<std::string, double> &,
+                   const Lattice<2> &,
+                   const std::vector<PointOrigin<2>> &);
   template void
   check_nearness(const std::string &,
                  const dealii::Point<3> &,
@@ -140,9 +146,9 @@ namespace kedge
   check_node_conditions(const std::vector<NodeConditionParameters<3>> &,
                         const std::map<std::string, double> &,
                         const Lattice<3> &);
-  template std::vector<std::string>
-  idle_node_conditions(const std::vector<NodeConditionParameters<3>> &,
-                       const std::map<std::string, double> &,
-                       const Lattice<3> &,
-                       const std::vector<PointOrigin<3>> &);
+  template std::vector<std::size_t>
+  count_held_nodes(const std::vector<NodeConditionParameters<3>> &,
+                   const std::map<std::string, double> &,
+                   const Lattice<3> &,
+                   const std::vector<PointOrigin<3>> &);
 } // namespace kedge

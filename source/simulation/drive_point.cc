@@ -1,6 +1,8 @@
 #include <kedge/io/checks.h>
 #include <kedge/io/collective.h>
 #include <kedge/io/files.h>
+#include <kedge/io/summary.h>
+#include <kedge/io/versions.h>
 #include <kedge/simulation/drive_point.h>
 #include <kedge/stress/soil_test.h>
 
@@ -97,7 +99,8 @@ namespace kedge
         }
     }
 
-    void
+    /** Writes the row unless a number of it is not finite; then says which. */
+    std::string
     write_row(const std::uint64_t step,
               const double        time,
               const Driver       &driver,
@@ -123,7 +126,83 @@ namespace kedge
         write_soil(driver, scene.material, file);
       for (const std::string &name : further_columns(scene.material))
         file << driver.point().column(name);
+      if (!file.not_finite().empty())
+        return file.not_finite();
       file.end_row();
+      return "";
+    }
+
+    /** How far a path came. */
+    struct PathEnd
+    {
+      double        stopped_at = -1.; ///< the time that could not be reached [s]; -1: none
+      std::string   why;
+      std::uint64_t n_steps = 0; ///< that were taken
+    };
+
+    PathEnd
+    follow(Driver &driver, const PathScene &scene, CsvFile &file)
+    {
+      PathEnd     end;
+      const char *no_answer = "det F <= 0, or no finite stress there, or none that is prescribed";
+      const auto  stop      = [&](const double t, const std::string &why) {
+        end.stopped_at = t;
+        end.why        = why;
+        return end;
+      };
+      if (!driver.start())
+        return stop(0., no_answer);
+      if (const std::string bad = write_row(0, 0., driver, scene, file); !bad.empty())
+        return stop(0., bad);
+      for (unsigned int step = 1; step <= scene.path.n_steps; ++step)
+        {
+          const double t = scene.path.end * step / scene.path.n_steps;
+          if (!driver.advance_to(t))
+            return stop(t, no_answer);
+          if (const std::string bad = write_row(step, t, driver, scene, file); !bad.empty())
+            return stop(t, bad);
+          end.n_steps = step;
+        }
+      return end;
+    }
+
+    /** summary.json, with the last row of the table. */
+    void
+    summarise(const PathScene                &scene,
+              const PathEnd                  &end,
+              const std::vector<CheckResult> &checks,
+              const RunFolder                &folder,
+              const double                    wall_start)
+    {
+      RunSummary summary;
+      summary.versions          = software_versions();
+      summary.scene             = scene.name;
+      summary.title             = scene.title;
+      summary.status            = end.stopped_at < 0. ? "finished" : "numerical_stop";
+      summary.reason            = end.why;
+      summary.dim               = 3;
+      summary.n_ranks           = dealii::Utilities::MPI::n_mpi_processes(folder.communicator());
+      summary.counts            = {{"material_points", 1}};
+      summary.n_steps           = end.n_steps;
+      summary.checks            = checks;
+      summary.wall_seconds      = MPI_Wtime() - wall_start;
+      summary.cpu_seconds       = cpu_seconds(folder.communicator());
+      summary.peak_memory_bytes = peak_memory(folder.communicator());
+      summary.point_updates_per_second =
+        static_cast<double>(end.n_steps) / std::max(summary.wall_seconds, 1e-9);
+      if (folder.is_root())
+        {
+          const CsvTable table = read_csv(folder.path("history.csv"));
+          for (std::size_t k = 2; k < table.columns.size(); ++k) // after step and time
+            if (!table.values[k].empty())
+              {
+                summary.columns.push_back({table.columns[k], "", Ledger::Section::state, false});
+                summary.final_row.books.push_back(table.values[k].back());
+              }
+          summary.final_row.step = end.n_steps;
+          summary.final_row.time = table.values[1].empty() ? 0. : table.values[1].back();
+        }
+      write_summary(folder, summary);
     }
   } // namespace
 
@@ -172,43 +251,36 @@ namespace kedge
               const bool                   strict,
               const MPI_Comm               communicator)
   {
-    const std::vector<std::string> columns = path_columns(scene);
+    const double                   wall_start = MPI_Wtime();
+    const std::vector<std::string> columns    = path_columns(scene);
     verify_checks<3>(scene.checks, columns, {});
     Driver          driver(scene);
     const RunFolder folder(output, RunFolder::Mode::fresh, communicator);
     folder.log() << "kedge: " << (scene.title.empty() ? scene.name : scene.title)
                  << "\n  one material point of '" << scene.material.name << "'" << std::endl;
 
-    double stopped_at = -1.; // the time that could not be reached
+    PathEnd end;
     run_on_root(communicator, [&]() {
       replace_file(folder.path("parameters.prm"), scene.parameters);
       CsvFile file(folder.path("history.csv"), columns);
-      if (driver.start())
-        write_row(0, 0., driver, scene, file);
-      else
-        stopped_at = 0.;
-      for (unsigned int step = 1; step <= scene.path.n_steps && stopped_at < 0.; ++step)
-        {
-          const double t = scene.path.end * step / scene.path.n_steps;
-          if (driver.advance_to(t))
-            write_row(step, t, driver, scene, file);
-          else
-            stopped_at = t;
-        }
+      end = follow(driver, scene, file);
     });
-    stopped_at = dealii::Utilities::MPI::broadcast(communicator, stopped_at);
-    if (stopped_at >= 0.)
+    end.stopped_at = dealii::Utilities::MPI::broadcast(communicator, end.stopped_at);
+    if (end.stopped_at >= 0.)
       {
-        folder.log() << "kedge: stopped before t = " << stopped_at
-                     << " s: det F <= 0, or no finite stress there, or none that is prescribed"
+        summarise(scene, end, {}, folder, wall_start);
+        folder.log() << "kedge: stopped before t = " << end.stopped_at << " s: " << end.why
                      << std::endl;
         return ExitCode::numerical_stop;
       }
 
     const auto results = evaluate_checks<3>(scene.checks, folder, {}, scene.constants);
     print_checks(results, folder.log());
-    folder.log() << "kedge: finished after " << scene.path.n_steps << " steps, "
-                 << (folder.path("history.csv")).string() << std::endl;
+    summarise(scene, end, results, folder, wall_start);
+    folder.log() << "kedge: finished after " << scene.path.n_steps << " steps\n"
+                 << "kedge: results in " << folder.path().string()
+                 << "; to draw them: ./kedge plot " << folder.path().string() << std::endl;
+    folder.check_log();
     for (const CheckResult &check : results)
       if (!check.pass && strict)
         return ExitCode::numerical_stop;

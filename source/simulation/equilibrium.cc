@@ -1,11 +1,15 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/simulation/equilibrium.h>
+#include <kedge/simulation/scene_loads.h>
 #include <kedge/simulation/step.h>
 
 namespace kedge
 {
   namespace
   {
+    /** Lines of a stage in the log, however many steps it has. */
+    constexpr unsigned int most_lines = 20;
+
     /** Forces grow over the stage, unless the bodies begin it under their stress. */
     template <int dim>
     bool
@@ -46,34 +50,47 @@ namespace kedge
 
 
   template <int dim>
-  std::vector<PointRecord<dim>>
-  points_in_equilibrium(const Scene<dim> &scene, const MPI_Comm communicator)
+  EquilibriumState<dim>
+  find_equilibrium(const Scene<dim> &scene, const MPI_Comm communicator, std::ostream &log)
   {
-    const double duration = scene.equilibrium.duration;
-    Model<dim>   model(stage_of(scene),
+    const double      duration  = scene.equilibrium.duration;
+    const std::string bad_loads = SceneLoads(scene).not_finite_at(scene.time.start);
+    Model<dim>        model(stage_of(scene),
                      communicator,
                      LoadProgram(scene.time.start, duration, grows(scene)));
-    Step<dim>    stage(model);
+    Step<dim>         stage(model);
     model.create_points();
     stage.initialise_points(0., false);
-    const double dt = duration / scene.equilibrium.steps;
+    const double       dt        = duration / scene.equilibrium.steps;
+    const unsigned int n_between = (scene.equilibrium.steps + most_lines - 1) / most_lines;
     for (unsigned int step = 0; step < scene.equilibrium.steps; ++step)
       {
         const StepReport report = stage.attempt({step * dt, dt});
         if (!report.accepted)
           throw UserError("Equilibrium: step " + std::to_string(step + 1) + " of " +
-                          std::to_string(scene.equilibrium.steps) + " does not converge: " +
-                          report.cause + ". Take more (Equilibrium/Steps).");
+                          std::to_string(scene.equilibrium.steps) +
+                          " does not converge: " + report.cause + ". " +
+                          (bad_loads.empty() ? "Take more (Equilibrium/Steps)." : bad_loads + "."));
         stage.commit();
+        if ((step + 1) % n_between == 0 || step + 1 == scene.equilibrium.steps)
+          log << "  Equilibrium: step " << step + 1 << " of " << scene.equilibrium.steps
+              << ", Newton " << report.newton.iterations << std::endl;
       }
+    EquilibriumState<dim>     result;
+    const auto                columns = model.ledger.columns();
+    const std::vector<double> values  = model.ledger.values();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (columns[k].section == Ledger::Section::force)
+        result.forces[columns[k].name] = values[k];
     auto records = model.points.points().records();
     for (auto &record : records)
       start_anew(record);
-    return records;
+    result.points = std::move(records);
+    return result;
   }
 
-  template std::vector<PointRecord<2>>
-  points_in_equilibrium(const Scene<2> &, const MPI_Comm);
-  template std::vector<PointRecord<3>>
-  points_in_equilibrium(const Scene<3> &, const MPI_Comm);
+  template EquilibriumState<2>
+  find_equilibrium(const Scene<2> &, const MPI_Comm, std::ostream &);
+  template EquilibriumState<3>
+  find_equilibrium(const Scene<3> &, const MPI_Comm, std::ostream &);
 } // namespace kedge

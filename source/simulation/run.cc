@@ -1,3 +1,4 @@
+#include <kedge/simulation/attachments.h>
 #include <kedge/simulation/equilibrium.h>
 #include <kedge/simulation/run.h>
 
@@ -38,7 +39,7 @@ namespace kedge
     , step(model)
     , clock(scene.time)
     , checkpoints(folder)
-    , progress(folder, scene.output.progress_interval, scene.time.start, scene.time.end)
+    , log(folder, scene)
   {
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
@@ -48,6 +49,8 @@ namespace kedge
                        probe_names,
                        scene.pore_fluid.has_value());
 
+    if (scene.output.hit_output_times)
+      clock.set_output_times(scene.time.start, scene.output.points_interval);
     model.create_points();
     if (options.resume)
       resume();
@@ -75,10 +78,14 @@ namespace kedge
   Run<dim>::start_fresh()
   {
     open_output({});
-    const bool has_stage = model.scene.equilibrium.steps > 0;
+    folder.log() << "kedge: " << (model.scene.title.empty() ? model.scene.name : model.scene.title)
+                 << std::endl;
+    const bool            has_stage = model.scene.equilibrium.steps > 0;
+    EquilibriumState<dim> stage;
     if (has_stage)
       {
-        model.points.replace(points_in_equilibrium(model.scene, communicator));
+        stage = find_equilibrium(model.scene, communicator, folder.log());
+        model.points.replace(std::move(stage.points));
         step.points_changed();
       }
     step.initialise_points(clock.time(), has_stage);
@@ -87,15 +94,25 @@ namespace kedge
     counts.next_output_time = clock.time();
     row.time_step           = 0.;
     fill_row();
+    const auto columns = model.ledger.columns();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (const auto force = stage.forces.find(columns[k].name); force != stage.forces.end())
+        row.books[k] = force->second;
+    std::string bad = bad_number(clock.time());
+    if (bad.empty())
+      bad = write_probes();
+    if (!bad.empty())
+      throw UserError("At the start " + bad + ".");
     history->write(row);
-    folder.log() << "kedge: " << (model.scene.title.empty() ? model.scene.name : model.scene.title)
-                 << "\n  " << row.n_points << " material points in "
+    folder.log() << "  " << row.n_points << " material points in "
                  << static_cast<std::uint64_t>(model.ledger.value("n_active_cells")) << " cells, "
                  << static_cast<std::uint64_t>(model.ledger.value("n_dofs")) << " unknowns, "
                  << dealii::Utilities::MPI::n_mpi_processes(communicator) << " process(es)"
                  << std::endl;
+    describe_attachments(model, step, folder.log());
     write_points(true);
-    write_grid();
+    if (!last_points_step)
+      write_grid();
   }
 
 
@@ -126,11 +143,16 @@ namespace kedge
         counts.linear += report.newton.linear_iterations;
         if (!report.accepted)
           {
-            if (!reject_step(report))
-              return finish("numerical_stop", report.cause);
-            continue;
+            if (reject_step(report))
+              continue;
+            const std::string bad = log.bad_loads(clock.time(), clock.next_time());
+            return finish("numerical_stop", report.cause + (bad.empty() ? "" : "; " + bad));
           }
-        finish_step(report);
+        if (const std::string bad = finish_step(report); !bad.empty())
+          {
+            state_is_good = false;
+            return finish("numerical_stop", bad);
+          }
         if (!watch_porosity())
           {
             write_checkpoint();
@@ -149,10 +171,28 @@ namespace kedge
 
 
   template <int dim>
-  void
+  std::string
+  Run<dim>::bad_number(const double begin) const
+  {
+    const auto columns = model.ledger.columns();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (!std::isfinite(row.books[k]))
+        {
+          const std::string loads = log.bad_loads(begin, row.time);
+          return columns[k].name + " is " + exact_text(row.books[k]) +
+                 (loads.empty() ? "" : "; " + loads);
+        }
+    return "";
+  }
+
+
+
+  template <int dim>
+  std::string
   Run<dim>::finish_step(const StepReport &report)
   {
-    row.time_step = clock.step_size();
+    const double begin = clock.time();
+    row.time_step      = clock.step_size();
     step.commit();
     clock.advance(report.newton.iterations);
     row.newton_iterations = report.newton.iterations;
@@ -163,14 +203,19 @@ namespace kedge
     counts.points_times_steps += static_cast<double>(row.n_points) * report.newton.iterations;
 
     const Stopwatch stopwatch(output_time);
+    std::string     bad = bad_number(begin);
+    if (bad.empty())
+      bad = write_probes();
+    if (!bad.empty())
+      return bad + ", after step " + std::to_string(row.step);
     if (newton_log)
       newton_log->write(row.step, row.time, true, report.newton);
     if (audit_writer)
       audit_writer->write(row.step, row.time, audit_of(model));
     history->write(row);
-    write_probes();
     write_points(false);
-    progress.report(row);
+    log.accepted(row, wall_time());
+    return "";
   }
 
 
@@ -218,11 +263,10 @@ namespace kedge
       newton_log->write(clock.n_steps() + 1, clock.next_time(), false, report.newton);
     const double size = clock.step_size();
     const bool   cut  = !report.hopeless && clock.cut_step();
-    folder.log() << "  step of " << size << " s at t = " << clock.time()
-                 << " s rejected: " << report.cause
-                 << (cut ? "; trying half of it"
-                         : (report.hopeless ? "" : "; the step is at its floor"))
-                 << std::endl;
+    if (cut)
+      log.cut(size, clock.time(), report.cause);
+    else
+      log.stopped(size, clock.time(), report.cause, !report.hopeless);
     return cut;
   }
 
@@ -283,28 +327,45 @@ namespace kedge
   Run<dim>::finish(const std::string &status, const std::string &reason)
   {
     const bool finished = status == "finished";
-    progress.finish(row);
-    if (finished)
+    const bool stopped  = status == "numerical_stop" && state_is_good;
+    log.finish(row);
+    if (finished || stopped)
       write_points(true);
-    if (status == "numerical_stop" || (finished && model.scene.output.checkpoint_every_steps > 0))
-      write_checkpoint();
+    if (stopped || (finished && (model.scene.output.checkpoint_every_steps > 0 ||
+                                 model.scene.output.checkpoint_interval > 0.)))
+      write_checkpoint(); // one goes on from the end, too, with a later Time/End
     const RunSummary summary = make_summary(status, reason);
     write_summary(folder, summary);
 
-    std::ostream &log = folder.log();
+    std::ostream &out = folder.log();
     if (finished)
       {
-        print_checks(summary.checks, log);
-        log << "kedge: finished at t = " << clock.time() << " s after " << clock.n_steps()
+        print_checks(summary.checks, out);
+        out << "kedge: finished at t = " << clock.time() << " s after " << clock.n_steps()
             << " steps, " << counts.newton << " Newton iterations, " << std::setprecision(3)
             << wall_time() << " s" << std::setprecision(6) << std::endl;
+        say_where_results_are(finished);
         for (const auto &check : summary.checks)
           if (!check.pass && options.strict)
             return ExitCode::numerical_stop;
         return ExitCode::finished;
       }
-    log << "kedge: stopped at t = " << clock.time() << " s: " << reason << std::endl;
+    log.say_loads(clock.time());
+    out << "kedge: stopped at t = " << clock.time() << " s: " << reason << std::endl;
+    say_where_results_are(finished);
     return status == "interrupted" ? ExitCode::interrupted : ExitCode::numerical_stop;
+  }
+
+  template <int dim>
+  void
+  Run<dim>::say_where_results_are(const bool finished)
+  {
+    const std::string name = folder.path().string();
+    folder.log() << "kedge: results in " << name << "; to draw them: ./kedge plot " << name
+                 << std::endl;
+    if (!finished && state_is_good && !options.resume_command.empty())
+      folder.log() << "kedge: to go on: " << options.resume_command << std::endl;
+    folder.check_log();
   }
 
   template class Run<2>;

@@ -80,11 +80,11 @@ namespace kedge
 
 
   template <int dim>
-  void
+  std::string
   Run<dim>::write_probes()
   {
     if (probes->empty())
-      return;
+      return "";
     probes->begin();
     model.points.points().for_each([&](const unsigned int,
                                        const std::uint64_t       id,
@@ -93,7 +93,7 @@ namespace kedge
       if (probes->tracks(id))
         probes->add({id, location, state});
     });
-    probes->end_row(clock.time());
+    return probes->end_row(clock.time());
   }
 
 
@@ -112,8 +112,12 @@ namespace kedge
       due = true;
     if (!enabled || !due || (!output.vtu && !output.hdf5))
       return;
-    while (output.points_interval > 0. && counts.next_output_time <= clock.time() + tolerance)
-      counts.next_output_time += output.points_interval;
+    if (output.points_interval > 0. && counts.next_output_time <= clock.time() + tolerance)
+      {
+        const double past = clock.time() + tolerance - counts.next_output_time;
+        counts.next_output_time +=
+          (std::floor(past / output.points_interval) + 1.) * output.points_interval;
+      }
     if (last_points_step && *last_points_step == clock.n_steps())
       return;
     last_points_step = clock.n_steps();
@@ -175,20 +179,24 @@ namespace kedge
                         {"next_output_time", counts.next_output_time}};
     for (const auto &[name, value] : model.ledger.save())
       data.scalars["ledger " + name] = value;
-    data.counters       = {{"steps", state.n_steps},
-                           {"cuts", state.cuts},
-                           {"accepted_since_cut", state.accepted_since_cut},
-                           {"newton", counts.newton},
-                           {"linear", counts.linear},
-                           {"rejected", counts.rejected},
-                           {"rejected_pending", counts.rejected_pending},
-                           {"history_position", history->position()},
-                           {"probes_position", probes->position()},
-                           {"newton_position", newton_log ? newton_log->position() : 0},
-                           {"audit_position", audit_writer ? audit_writer->position() : 0},
-                           {"points_written", points_output->n_written()},
-                           {"last_points_step", last_points_step.value_or(0)},
-                           {"grid_written", grid_output ? grid_output->n_written() : 0}};
+    data.counters  = {{"steps", state.n_steps},
+                      {"cuts", state.cuts},
+                      {"accepted_since_cut", state.accepted_since_cut},
+                      {"newton", counts.newton},
+                      {"linear", counts.linear},
+                      {"rejected", counts.rejected},
+                      {"rejected_pending", counts.rejected_pending},
+                      {"points_written", points_output->n_written()},
+                      {"last_points_step", last_points_step.value_or(0)},
+                      {"grid_written", grid_output ? grid_output->n_written() : 0}};
+    const auto put = [&](const std::string &table, const CsvPosition &end) {
+      data.counters[table + "_position"] = end.n_bytes;
+      data.counters[table + "_checksum"] = end.checksum.value_or(0);
+    };
+    put("history", history->position());
+    put("probes", probes->position());
+    put("newton", newton_log ? newton_log->position() : CsvPosition());
+    put("audit", audit_writer ? audit_writer->position() : CsvPosition());
     const auto &covered = model.points.covered_cells();
     auto       &window  = data.arrays["covered_cells"];
     for (int d = 0; d < dim; ++d)
@@ -212,9 +220,13 @@ namespace kedge
   Run<dim>::open_output(const std::map<std::string, std::uint64_t> &positions)
   {
     const bool resumed  = !positions.empty();
-    const auto position = [&](const std::string &file) {
-      return resumed ? std::optional<std::uint64_t>(positions.at(file + "_position"))
-                     : std::optional<std::uint64_t>();
+    const auto position = [&](const std::string &table) -> std::optional<CsvPosition> {
+      if (!resumed)
+        return {};
+      CsvPosition end{positions.at(table + "_position")};
+      if (positions.count(table + "_checksum") > 0)
+        end.checksum = positions.at(table + "_checksum");
+      return end;
     };
     const auto n_written = [&](const std::string &what) {
       return resumed ? static_cast<unsigned int>(positions.at(what + "_written")) : 0u;
@@ -285,7 +297,7 @@ namespace kedge
 
 #define KEDGE_INSTANTIATE(dim)                                                                     \
   template std::vector<Probe> Run<dim>::find_probes() const;                                       \
-  template void               Run<dim>::write_probes();                                            \
+  template std::string        Run<dim>::write_probes();                                            \
   template void               Run<dim>::write_points(const bool);                                  \
   template void               Run<dim>::write_grid();                                              \
   template void               Run<dim>::write_checkpoint();                                        \

@@ -240,6 +240,27 @@ namespace kedge
 
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  Step<dim>::total_load(const double t)
+  {
+    activate();
+    // internal forces sum to zero, whatever the stress: the shapes sum to one
+    const Residual<dim>   &residual = step_equations.residual_at_rest(t);
+    dealii::Tensor<1, dim> sum;
+    for (unsigned int f = 0; f < model.fields.size(); ++f)
+      {
+        const Patch<dim>  &patch        = model.fields[f]->patch;
+        const unsigned int n_components = patch.n_components();
+        for (std::size_t i = 0; i < patch.nodes.n_owned(); ++i)
+          for (int d = 0; d < dim; ++d)
+            sum[d] -= residual.of_field(f)[i * n_components + d];
+      }
+    return dealii::Utilities::MPI::sum(sum, model.communicator);
+  }
+
+
+
+  template <int dim>
   std::map<std::string, PhaseTime>
   Step<dim>::phase_times() const
   {

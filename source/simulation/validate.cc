@@ -1,5 +1,5 @@
-#include <kedge/points/attachment_checks.h>
 #include <kedge/points/volume_report.h>
+#include <kedge/simulation/attachments.h>
 #include <kedge/simulation/run.h>
 #include <kedge/stress/point_update.h>
 
@@ -26,19 +26,16 @@ namespace kedge
     const auto   n_points = static_cast<std::uint64_t>(model.ledger.value("n_points"));
     const auto   n_dofs   = static_cast<std::uint64_t>(model.ledger.value("n_dofs"));
     const auto   n_cells  = static_cast<std::uint64_t>(model.ledger.value("n_active_cells"));
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+    const bool   is_root  = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    std::ostream silence(nullptr);
+    describe_attachments(model, first, is_root ? out : silence);
+    if (!is_root)
       return;
     out << "scene:            " << (scene.title.empty() ? scene.name : scene.title) << "\n";
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       out << "body:             " << scene.bodies[b].name << ", " << points_of_body[b]
           << " material points of " << scene.materials[scene.bodies[b].material].name << "\n";
     const Lattice<dim> &lattice = model.points.grid().lattice();
-    for (const auto &name : idle_node_conditions(scene.node_conditions,
-                                                 scene.constants,
-                                                 lattice,
-                                                 model.generated_points()))
-      out << "note:             Node conditions/" << name
-          << " holds no node of a cell with material points\n";
     write_volumes(out, scene.bodies, lattice, model.generated_points());
     // a block row of the tangent reaches 3^dim nodes, 5^dim with GIMP
     const double per_point = sizeof(PointRecord<dim>) + sizeof(Stencil<dim>) +

@@ -44,13 +44,35 @@ namespace kedge
 
 
 
+  void
+  Clock::set_output_times(const double start, const double interval)
+  {
+    output_start    = start;
+    output_interval = interval;
+  }
+
+
+
+  double
+  Clock::next_output() const
+  {
+    if (!(output_interval > 0.))
+      return end;
+    // a time that was hit may lie below its multiple by rounding
+    const double n_past = std::floor((time_ - output_start) / output_interval + step_tolerance);
+    return output_start + (n_past + 1.) * output_interval;
+  }
+
+
+
   double
   Clock::next_target() const
   {
+    const double target = std::min(next_output(), end);
     for (const double t : break_times)
       if (t > time_)
-        return std::min(t, end);
-    return end;
+        return std::min(t, target);
+    return target;
   }
 
 

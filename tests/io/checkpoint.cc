@@ -152,6 +152,15 @@ TEST(IoCheckpointMpi, FallsBackFromADamagedOne)
   damage(manifest, "");
   EXPECT_EQ(outcome(run), "1");
 
+  // ranks that no file could have, under a checksum that is right
+  const std::size_t ranks = text.find("ranks ");
+  std::string       forged =
+    text.substr(0, ranks) + "ranks 99999999999999" +
+    text.substr(text.find('\n', ranks), text.rfind("crc ") - text.find('\n', ranks));
+  forged += "crc " + std::to_string(crc32_of(forged)) + '\n';
+  damage(manifest, forged);
+  EXPECT_EQ(outcome(run), "1");
+
   // The next one written replaces the damaged one, not the one resumed from.
   CheckpointStore<2> store(run);
   store.read_latest(make_data<2>(0).settings);
@@ -210,8 +219,10 @@ TEST(IoCheckpointMpi, ForeignOnesAreTheUsersErrors)
 TEST(IoCheckpointMpi, AnotherNumberOfRanks)
 {
   const test::ScratchFolder scratch;
-  const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
-  CheckpointStore<2>(run).write(make_data<2>(1));
+  {
+    const RunFolder run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
+    CheckpointStore<2>(run).write(make_data<2>(1));
+  }
   MPI_Barrier(MPI_COMM_WORLD);
   if (rank() != 0 || make_data<2>(0).n_ranks == 1)
     return; // two ranks wrote, one reads

@@ -66,7 +66,7 @@ TEST(IoHistoryWriter, ResumedFileEqualsTheUninterruptedOne)
 {
   const test::ScratchFolder scratch;
   const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
-  std::uint64_t             position = 0;
+  CsvPosition               position;
   {
     HistoryWriter writer(run, some_columns());
     for (const std::uint64_t step : {1, 2, 3, 4, 5})
@@ -82,10 +82,10 @@ TEST(IoHistoryWriter, ResumedFileEqualsTheUninterruptedOne)
   EXPECT_EQ(read_csv(scratch / "history.csv").find("step")->size(), 4u);
   {
     HistoryWriter writer(run, some_columns(), position);
-    EXPECT_EQ(read_file(scratch / "history.csv").size(), position);
+    EXPECT_EQ(read_file(scratch / "history.csv").size(), position.n_bytes);
     writer.write(make_row(4));
     writer.write(make_row(5));
-    EXPECT_EQ(writer.position(), whole.size());
+    EXPECT_EQ(writer.position().n_bytes, whole.size());
   }
   EXPECT_EQ(read_file(scratch / "history.csv"), whole);
 }
@@ -94,16 +94,28 @@ TEST(IoHistoryWriter, RefusesToResumeAnotherFile)
 {
   const test::ScratchFolder scratch;
   const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
-  std::uint64_t             position = 0;
+  CsvPosition               position;
   {
     HistoryWriter writer(run, some_columns());
     writer.write(make_row(1));
     position = writer.position();
   }
-  EXPECT_THROW(HistoryWriter(run, {}, position), UserError);                 // other columns
-  EXPECT_THROW(HistoryWriter(run, some_columns(), position + 1), UserError); // too short
-  EXPECT_THROW(HistoryWriter(run, some_columns(), position - 1), UserError); // inside a row
-  EXPECT_THROW(HistoryWriter(run, some_columns(), 3), UserError);            // inside the header
+  EXPECT_THROW(HistoryWriter(run, {}, position), UserError); // other columns
+  const auto at = [&](const std::uint64_t n_bytes) {
+    return CsvPosition{n_bytes};
+  };
+  const std::uint64_t n = position.n_bytes;
+  EXPECT_THROW(HistoryWriter(run, some_columns(), at(n + 1)), UserError); // too short
+  EXPECT_THROW(HistoryWriter(run, some_columns(), at(n - 1)), UserError); // inside a row
+  EXPECT_THROW(HistoryWriter(run, some_columns(), at(3)), UserError);     // inside the header
+  // a digit of a row before the checkpoint, changed by hand
+  const std::string whole      = read_file(scratch / "history.csv");
+  std::string       forged     = whole;
+  forged[forged.find("0.333")] = '9';
+  write_file(scratch / "history.csv", forged);
+  EXPECT_THROW(HistoryWriter(run, some_columns(), position), UserError);
+  write_file(scratch / "history.csv", whole);
+  EXPECT_NO_THROW(HistoryWriter(run, some_columns(), position));
   std::filesystem::remove(scratch / "history.csv");
   EXPECT_THROW(HistoryWriter(run, some_columns(), position), UserError);
 }
@@ -121,7 +133,7 @@ TEST(IoHistoryWriterMpi, RankZeroWrites)
   const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
   HistoryWriter             writer(run, some_columns());
   writer.write(make_row(1));
-  EXPECT_EQ(writer.position() > 0, run.is_root());
+  EXPECT_EQ(writer.position().n_bytes > 0, run.is_root());
   MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_EQ(read_csv(scratch / "history.csv").find("step")->size(), 1u);
 }

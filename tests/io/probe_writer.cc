@@ -90,7 +90,7 @@ TEST(IoProbeWriter, WithoutProbesThereIsNoFile)
   EXPECT_TRUE(probes.empty());
   EXPECT_FALSE(probes.tracks(0));
   probes.write(0, test::make_points<2>(3));
-  EXPECT_EQ(probes.position(), 0u);
+  EXPECT_EQ(probes.position().n_bytes, 0u);
   EXPECT_FALSE(std::filesystem::exists(scratch / "probes.csv"));
 }
 
@@ -110,7 +110,7 @@ TEST(IoProbeWriter, ResumedFileEqualsTheUninterruptedOne)
   const auto                points = test::make_points<2>(3);
   const test::ScratchFolder scratch;
   const RunFolder           run(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
-  std::uint64_t             position = 0;
+  CsvPosition               position;
   {
     ProbeWriter<2> probes(run, {{"tip", {{1, 1.}}}});
     probes.write(1, points);

@@ -91,6 +91,54 @@ TEST(IoRunFolder, RefusesToReplaceForeignFiles)
   EXPECT_EQ(read_file(other / "parameters.prm"), "precious");
 }
 
+TEST(IoRunFolder, OneRunAtATime)
+{
+  const test::ScratchFolder scratch;
+  {
+    const RunFolder first(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
+    write_file(scratch / "history.csv", "x");
+    for (const auto mode : {RunFolder::Mode::fresh, RunFolder::Mode::resume})
+      {
+        const std::string message = message_of(scratch.path(), mode);
+        EXPECT_NE(message.find("process " + std::to_string(getpid())), std::string::npos)
+          << message;
+        EXPECT_NE(message.find("--output"), std::string::npos) << message;
+      }
+    EXPECT_TRUE(fs::exists(scratch / "history.csv"));
+  }
+  {
+    // one that resumes keeps others out, too
+    const RunFolder first(scratch.path(), RunFolder::Mode::resume, MPI_COMM_WORLD);
+    EXPECT_NE(message_of(scratch.path(), RunFolder::Mode::fresh), "no error");
+  }
+  // who was killed has left a mark and holds nothing
+  write_file(scratch / ".kedge", "Last written by process 1 on nowhere.\n");
+  EXPECT_EQ(message_of(scratch.path(), RunFolder::Mode::resume), "no error");
+}
+
+TEST(IoRunFolder, AKillWhileClearingLeavesNoHalfRun)
+{
+  const test::ScratchFolder scratch;
+  {
+    const RunFolder first(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
+  }
+  // states retired by a run that was killed then, and one that a later run has written
+  for (const char *state : {"cleared-000003", "cleared-000004", "state-000004"})
+    {
+      fs::create_directories(scratch / ("checkpoint/" + std::string(state)));
+      write_file(scratch / ("checkpoint/" + std::string(state) + "/manifest.txt"), "x");
+    }
+  const RunFolder second(scratch.path(), RunFolder::Mode::fresh, MPI_COMM_WORLD);
+  EXPECT_FALSE(fs::exists(scratch / "checkpoint"));
+}
+
+TEST(IoRunFolder, LongNamesAreTheUsersErrors)
+{
+  const test::ScratchFolder scratch;
+  for (const auto mode : {RunFolder::Mode::fresh, RunFolder::Mode::resume})
+    EXPECT_NE(message_of(scratch / std::string(300, 'a'), mode), "no error");
+}
+
 TEST(IoRunFolder, NamesCauseAndRemedy)
 {
   const test::ScratchFolder scratch;

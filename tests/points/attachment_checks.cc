@@ -74,7 +74,7 @@ TEST(PointsAttachment, ConditionsMustHoldANodeOfTheGrid)
   EXPECT_NE(message_of(condition("roof", "y > 0.1")), "");
 }
 
-TEST(PointsAttachment, IdleConditionsHoldNoCellWithPoints)
+TEST(PointsAttachment, HeldNodesAreThoseOfCellsWithPoints)
 {
   GeneratedPoint<2> point{};
   point.record.location = {.3, -.2}; // in the cell from (0, -.5) to (.5, 0)
@@ -82,11 +82,12 @@ TEST(PointsAttachment, IdleConditionsHoldNoCellWithPoints)
   bottom.name = "bottom";
   bottom.side = 2; // y = -1: a cell further down
   NodeConditionParameters<2> left;
-  left.name       = "left";
-  const auto idle = idle_node_conditions<2>(
-    {condition("far", "x > 0.6"), bottom, left, condition("near", "x > 0.4")},
-    {},
-    four_by_two_cells(),
-    {PointOrigin<2>(point)});
-  EXPECT_EQ(idle, (std::vector<std::string>{"far", "bottom"}));
+  left.name = "left";
+  const auto held =
+    count_held_nodes<2>({condition("far", "x > 0.6"), bottom, left, condition("near", "x > 0.4")},
+                        {},
+                        four_by_two_cells(),
+                        {PointOrigin<2>(point), PointOrigin<2>(point)});
+  // of the cell's four nodes two stand at x = 0 and two at x = 0.5
+  EXPECT_EQ(held, (std::vector<std::size_t>{0, 0, 2, 2}));
 }

@@ -211,3 +211,17 @@ TEST(TimeIntegrationClock, AdaptedStepsGoOnFromARestoredStateBitForBit)
       resumed.advance(k % 7 == 6 ? 12 : 3);
     }
 }
+
+TEST(TimeIntegrationClock, HitsOutputTimesExactlyAlsoWithGrowingSteps)
+{
+  Clock clock = adaptive_clock(8.);
+  clock.set_output_times(0., 0.7);
+  unsigned int n_hit = 0;
+  while (!clock.finished())
+    {
+      EXPECT_GT(clock.step_size(), 1e-6);
+      clock.advance(3);
+      n_hit += clock.time() == 0.7 * (n_hit + 1) ? 1 : 0; // in doubles: exactly
+    }
+  EXPECT_EQ(n_hit, 142u); // all multiples up to 99.4
+}

@@ -21,14 +21,14 @@ namespace kedge
   {
   public:
     /** @p resume_at is what position() gave at the checkpoint. Collective. */
-    AuditWriter(const RunFolder &folder, const std::optional<std::uint64_t> &resume_at = {});
+    AuditWriter(const RunFolder &folder, const std::optional<CsvPosition> &resume_at = {});
 
     /** Not collective; does nothing on ranks > 0. */
     void
     write(const std::uint64_t step, const double time, const TransferAudit<dim> &audit);
 
-    /** Length in bytes of the file, all of it on the disk; 0 on ranks > 0. */
-    std::uint64_t
+    /** Where the file ends, all of it on the disk; nothing on ranks > 0. */
+    CsvPosition
     position();
 
   private:

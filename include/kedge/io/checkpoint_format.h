@@ -2,6 +2,7 @@
 #define kedge_io_checkpoint_format_h
 
 #include <kedge/io/checkpoint.h>
+#include <kedge/io/files.h>
 
 #include <cstdint>
 #include <string>
@@ -9,10 +10,6 @@
 
 namespace kedge
 {
-  /** CRC-32 as in zlib and PNG. */
-  std::uint64_t
-  crc32_of(const std::string &content);
-
   /**
    * What a rank's file of a checkpoint holds: all but the
    * number of ranks, doubles as they stand in memory.

@@ -9,6 +9,13 @@
 
 namespace kedge
 {
+  /** Where a table stood when a checkpoint was written. */
+  struct CsvPosition
+  {
+    std::uint64_t                n_bytes  = 0;
+    std::optional<std::uint64_t> checksum = {}; ///< CRC-32 of them; none: not known
+  };
+
   /**
    * A comma-separated table that grows by whole rows. Each row is handed to
    * the system as it is written, so a killed process loses none; doubles are
@@ -21,11 +28,11 @@ namespace kedge
      * Begins the file with a header line of @p columns or, given the
      * @p position of a checkpoint (bytes), cuts off what came after it and
      * goes on from there. Throws UserError if the file cannot be written, is
-     * shorter than @p position or has other columns.
+     * shorter than @p position, has other columns, or was changed before it.
      */
-    CsvFile(const std::filesystem::path        &file,
-            const std::vector<std::string>     &columns,
-            const std::optional<std::uint64_t> &position = {});
+    CsvFile(const std::filesystem::path      &file,
+            const std::vector<std::string>   &columns,
+            const std::optional<CsvPosition> &position = {});
     CsvFile(const CsvFile &) = delete;
     CsvFile &
     operator=(const CsvFile &) = delete;
@@ -36,24 +43,30 @@ namespace kedge
     CsvFile &
     operator<<(const std::uint64_t value);
 
+    /** "column is nan" for the first number of the row so far that is not finite; else empty. */
+    const std::string &
+    not_finite() const;
+
     /** Ends the row and writes it. Throws UserError with the system's reason (disk full). */
     void
     end_row();
 
-    /** Length in bytes; all of it is on the disk when this returns. */
-    std::uint64_t
+    /** Where the table ends; all of it is on the disk when this returns. */
+    CsvPosition
     position();
 
   private:
     void
     write(const std::string &text);
 
-    std::filesystem::path file;
-    std::size_t           n_columns;
-    std::size_t           n_filled = 0;
-    std::string           row;
-    int                   descriptor = -1;
-    std::uint64_t         length     = 0;
+    std::filesystem::path    file;
+    std::vector<std::string> columns;
+    std::size_t              n_filled = 0;
+    std::string              row;
+    std::string              bad_number;
+    int                      descriptor = -1;
+    std::uint64_t            length     = 0;
+    std::uint64_t            checksum   = 0; ///< of all that was written
   };
 
   /** A table read back: one vector of equal length per column. */

@@ -1,6 +1,7 @@
 #ifndef kedge_io_files_h
 #define kedge_io_files_h
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -35,6 +36,10 @@ namespace kedge
   /** The whole of a file. Throws UserError if it cannot be read. */
   std::string
   read_file(const std::filesystem::path &file);
+
+  /** CRC-32 as in zlib and PNG; of a text that follows another, given that of the other. */
+  std::uint64_t
+  crc32_of(const std::string &content, const std::uint64_t of_what_came_before = 0);
 
   /** The shortest decimal text that reads back as the same double; `nan`, `inf`. */
   std::string

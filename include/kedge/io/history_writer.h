@@ -25,16 +25,16 @@ namespace kedge
      * @p resume_at is what position() gave at the checkpoint; rows after it
      * are cut off. Collective. Throws UserError as CsvFile does.
      */
-    HistoryWriter(const RunFolder                    &folder,
-                  const std::vector<Ledger::Column>  &books,
-                  const std::optional<std::uint64_t> &resume_at = {});
+    HistoryWriter(const RunFolder                   &folder,
+                  const std::vector<Ledger::Column> &books,
+                  const std::optional<CsvPosition>  &resume_at = {});
 
     /** Not collective; does nothing on ranks > 0. */
     void
     write(const HistoryRow &row);
 
-    /** Length in bytes of the file, all of it on the disk; 0 on ranks > 0. */
-    std::uint64_t
+    /** Where the file ends, all of it on the disk; nothing on ranks > 0. */
+    CsvPosition
     position();
 
   private:

@@ -20,7 +20,7 @@ namespace kedge
   {
   public:
     /** @p resume_at is what position() gave at the checkpoint. Collective. */
-    NewtonLog(const RunFolder &folder, const std::optional<std::uint64_t> &resume_at = {});
+    NewtonLog(const RunFolder &folder, const std::optional<CsvPosition> &resume_at = {});
 
     /** Not collective; does nothing on ranks > 0. @p time is where the step would end. */
     void
@@ -29,8 +29,8 @@ namespace kedge
           const bool          accepted,
           const NewtonReport &report);
 
-    /** Length in bytes of the file, all of it on the disk; 0 on ranks > 0. */
-    std::uint64_t
+    /** Where the file ends, all of it on the disk; nothing on ranks > 0. */
+    CsvPosition
     position();
 
   private:

@@ -51,10 +51,10 @@ namespace kedge
      * points, a name used twice or one that a table's header cannot hold, and
      * as CsvFile does. Collective.
      */
-    ProbeWriter(const RunFolder                    &folder,
-                const std::vector<Probe>           &probes,
-                const std::optional<std::uint64_t> &resume_at = {},
-                const bool                          saturated = false);
+    ProbeWriter(const RunFolder                  &folder,
+                const std::vector<Probe>         &probes,
+                const std::optional<CsvPosition> &resume_at = {},
+                const bool                        saturated = false);
 
     bool
     empty() const;
@@ -69,9 +69,11 @@ namespace kedge
     void
     add(const PointRecord<dim> &point);
 
-    /** Sums over the ranks and writes the row. Collective. Throws if a tracked point is on no rank.
+    /**
+     * Sums over the ranks and writes the row, or says on all ranks which number of it is
+     * not finite and writes nothing. Collective. Throws if a tracked point is on no rank.
      */
-    void
+    std::string
     end_row(const double time);
 
     /** All three at once. Collective; returns at once if there are no probes. */
@@ -79,7 +81,7 @@ namespace kedge
     write(const double time, const std::vector<PointRecord<dim>> &local_points);
 
     /** Length in bytes of the file, all of it on the disk; 0 without probes and on ranks > 0. */
-    std::uint64_t
+    CsvPosition
     position();
 
     /** The columns after `time` of one probe, without its name: position_x .. pressure. */

@@ -10,8 +10,10 @@
 namespace kedge
 {
   /**
-   * Progress lines in the log, at most one per @p interval wall seconds: time,
-   * step, step size, Newton iterations, points, time to go.
+   * Progress lines in the log: time, step, step size, Newton iterations, points, time to
+   * go. At most one per @p interval wall seconds, and rarer the longer a run lasts: one per
+   * hundredth of its time, so that an hour gives about 450 lines. An interval of 0 gives
+   * a line per step.
    */
   class Progress
   {
@@ -25,6 +27,10 @@ namespace kedge
     void
     report(const HistoryRow &row);
 
+    /** Whether report() would print now. */
+    bool
+    is_due() const;
+
     /** Prints the last line whatever the clock says, unless it stands already. */
     void
     finish(const HistoryRow &row);
@@ -32,6 +38,10 @@ namespace kedge
     /** One line, without its end. @p seconds_to_go < 0: unknown. */
     static std::string
     line(const HistoryRow &row, const double end_time, const double seconds_to_go);
+
+    /** 42s, 3m 07s, 2h 05m, 3d 04h. */
+    static std::string
+    duration(const double seconds);
 
   private:
     using Clock = std::chrono::steady_clock;

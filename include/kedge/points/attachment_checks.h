@@ -30,15 +30,15 @@ namespace kedge
                         const Lattice<dim>                              &lattice);
 
   /**
-   * The names of the node conditions that hold no node of any cell with material points:
-   * they do nothing until a body comes to them, or are at the wrong place.
+   * How many nodes of cells with material points each node condition holds. One that
+   * holds none does nothing until a body comes to it, or is at the wrong place.
    */
   template <int dim>
-  std::vector<std::string>
-  idle_node_conditions(const std::vector<NodeConditionParameters<dim>> &conditions,
-                       const std::map<std::string, double>             &constants,
-                       const Lattice<dim>                              &lattice,
-                       const std::vector<PointOrigin<dim>>             &points);
+  std::vector<std::size_t>
+  count_held_nodes(const std::vector<NodeConditionParameters<dim>> &conditions,
+                   const std::map<std::string, double>             &constants,
+                   const Lattice<dim>                              &lattice,
+                   const std::vector<PointOrigin<dim>>             &points);
 } // namespace kedge
 
 #endif

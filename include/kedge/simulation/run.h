@@ -9,10 +9,10 @@
 #include <kedge/io/newton_log.h>
 #include <kedge/io/points_output.h>
 #include <kedge/io/probe_writer.h>
-#include <kedge/io/progress.h>
 #include <kedge/io/run_folder.h>
 #include <kedge/io/signals.h>
 #include <kedge/io/summary.h>
+#include <kedge/simulation/run_log.h>
 #include <kedge/simulation/step.h>
 #include <kedge/time_integration/clock.h>
 
@@ -25,6 +25,7 @@ namespace kedge
     std::filesystem::path output;
     bool                  resume = false;
     bool                  strict = false; ///< a failed check makes the exit code 2
+    std::string           resume_command; ///< with which the user goes on; for the log
   };
 
   /** A whole run of a scene: the time loop with its books, output and checkpoints. */
@@ -60,9 +61,12 @@ namespace kedge
     open_output(const std::map<std::string, std::uint64_t> &positions);
     void
     set_step();
-    /** Commits an accepted step and writes what is due. */
-    void
+    /** Commits an accepted step and writes what is due, or says what of it is no number. */
+    std::string
     finish_step(const StepReport &report);
+    /** The first of the books that is not finite, and the loads that may be why. */
+    std::string
+    bad_number(const double begin) const;
     void
     fill_row();
     /** Warns of the first point without pores; false if the run is to stop there. */
@@ -70,7 +74,8 @@ namespace kedge
     watch_porosity();
     bool
     reject_step(const StepReport &report);
-    void
+    /** Writes a row, or says which of its numbers is not finite. */
+    std::string
     write_probes();
     void
     write_points(const bool force);
@@ -82,6 +87,8 @@ namespace kedge
     write_checkpoint_if_due();
     ExitCode
     finish(const std::string &status, const std::string &reason);
+    void
+    say_where_results_are(const bool finished);
     RunSummary
     make_summary(const std::string &status, const std::string &reason);
 
@@ -100,6 +107,7 @@ namespace kedge
     Counts           counts;
     HistoryRow       row;
     bool             porosity_is_lost = false;
+    bool             state_is_good    = true; ///< what a checkpoint may keep
 
     std::unique_ptr<HistoryWriter>     history;
     std::unique_ptr<ProbeWriter<dim>>  probes;
@@ -108,7 +116,7 @@ namespace kedge
     std::unique_ptr<NewtonLog>         newton_log;
     std::unique_ptr<AuditWriter<dim>>  audit_writer;
     CheckpointStore<dim>               checkpoints;
-    Progress                           progress;
+    RunLog                             log;
     double                             last_checkpoint_wall = 0.;
     std::uint64_t                      last_checkpoint_step = 0;
     std::optional<std::uint64_t>       last_points_step; ///< step of the last output of points

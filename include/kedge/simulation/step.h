@@ -62,6 +62,10 @@ namespace kedge
     void
     book_state();
 
+    /** The sum of all loads at a time, of all fields [N; N/m in 2D] (collective). */
+    dealii::Tensor<1, dim>
+    total_load(const double t);
+
     const StepEquations<dim> &
     equations() const
     {

@@ -13,7 +13,7 @@ namespace kedge
    * after a few accepted steps. If it adapts, it is also halved after a step
    * that was hard for Newton's method, only easy steps let it grow, and it
    * may grow beyond the nominal one, up to the largest factor. Steps end
-   * exactly at the break times and at the end.
+   * exactly at the break times, at the output times if there are any, and at the end.
    */
   class Clock
   {
@@ -23,6 +23,10 @@ namespace kedge
     /** The step that the scene asks for at this moment, before any cuts [s]. */
     void
     set_nominal_step(const double step);
+
+    /** From now on steps end exactly at @p start plus multiples of @p interval, too [s]. */
+    void
+    set_output_times(const double start, const double interval);
 
     double
     time() const
@@ -88,6 +92,8 @@ namespace kedge
   private:
     double
     next_target() const;
+    double
+    next_output() const;
     /** The step before it is shortened to land on a target [s]. */
     double
     whole_step() const;
@@ -97,6 +103,8 @@ namespace kedge
     bool                adapts;
     std::uint64_t       growths; ///< doublings from the nominal to the largest step
     std::vector<double> break_times;
+    double              output_start    = 0.;
+    double              output_interval = 0.; ///< 0: steps do not care
     double              time_;
     double              nominal  = 0.;
     std::uint64_t       n_steps_ = 0;

@@ -1,0 +1,53 @@
+#ifndef kedge_simulation_run_log_h
+#define kedge_simulation_run_log_h
+
+#include <kedge/io/progress.h>
+#include <kedge/scene/scene.h>
+#include <kedge/simulation/outlook.h>
+#include <kedge/simulation/rejections.h>
+#include <kedge/simulation/scene_loads.h>
+
+namespace kedge
+{
+  /** What a run says of its steps: progress, rejected attempts, where it stopped and why. */
+  class RunLog
+  {
+  public:
+    template <int dim>
+    RunLog(const RunFolder &folder, const Scene<dim> &scene);
+
+    /** An accepted step; @p wall is the wall time of the run so far [s]. */
+    void
+    accepted(const HistoryRow &row, const double wall);
+
+    /** An attempt that is repeated with less. */
+    void
+    cut(const double size, const double time, const std::string &cause);
+
+    /** The attempt at which the run stops. */
+    void
+    stopped(const double size, const double time, const std::string &cause, const bool at_floor);
+
+    /** The last line of progress. */
+    void
+    finish(const HistoryRow &row);
+
+    /** How far the loads had grown where the run stopped. */
+    void
+    say_loads(const double time);
+
+    /** Which loads between two times are no finite numbers; empty if all are. */
+    std::string
+    bad_loads(const double begin, const double end) const;
+
+  private:
+    const RunFolder &folder;
+    Progress         progress;
+    Rejections       rejections;
+    Outlook          outlook;
+    SceneLoads       loads;
+    double           end; ///< of the run [s]
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,141 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
+#include <kedge/simulation/attachments.h>
+
+#include <cmath>
+
+namespace kedge
+{
+  namespace
+  {
+    constexpr std::size_t most_lines = 20; ///< for each kind of entry
+
+    const std::string &
+    side_name(const unsigned int side)
+    {
+      static const std::array<std::string, 6> names = {
+        {"left, -x", "right, +x", "bottom, -y", "top, +y", "back, -z", "front, +z"}};
+      return names[side];
+    }
+
+    /** "Node conditions/base (bottom, -y)" */
+    template <int dim>
+    std::string
+    title(const NodeConditionParameters<dim> &condition)
+    {
+      return "Node conditions/" + condition.name +
+             (condition.on_side ? " (" + side_name(condition.side) + ")" : "");
+    }
+
+    template <int dim>
+    void
+    describe_conditions(const Model<dim> &model, std::ostream &out)
+    {
+      const auto &conditions = model.scene.node_conditions;
+      const auto  n_held     = count_held_nodes(conditions,
+                                           model.scene.constants,
+                                           model.points.grid().lattice(),
+                                           model.generated_points());
+      bool        any        = false;
+      std::string idle;
+      for (std::size_t i = 0; i < conditions.size(); ++i)
+        {
+          any = any || n_held[i] > 0;
+          if (n_held[i] == 0)
+            idle += (idle.empty() ? "" : ", ") + title(conditions[i]);
+          if (i < most_lines)
+            out << "  " << title(conditions[i]) << ": "
+                << (n_held[i] == 0 ? "no node of a cell with material points"
+                                   : std::to_string(n_held[i]) + " nodes")
+                << "\n";
+        }
+      if (conditions.size() > most_lines)
+        out << "  and " << conditions.size() - most_lines << " more node conditions\n";
+      if (!any && !conditions.empty() && !model.scheme.dynamic)
+        throw UserError("No node condition holds a node of a cell with material points (" + idle +
+                        "), and without inertia nothing else keeps the bodies from moving. In 3D "
+                        "bottom and top are the sides -y and +y, back and front are -z and +z.");
+    }
+
+    /** The point of a body (of any, if there is no name) that is nearest to a place. */
+    template <int dim>
+    const PointOrigin<dim> *
+    nearest_point(const Model<dim> &model, const std::string &body, const dealii::Point<dim> &place)
+    {
+      const PointOrigin<dim> *nearest  = nullptr;
+      double                  smallest = std::numeric_limits<double>::max();
+      for (const auto &point : model.generated_points())
+        if (body.empty() || model.bodies.names[point.body] == body)
+          if (const double distance = point.location.distance_square(place); distance < smallest)
+            {
+              smallest = distance;
+              nearest  = &point;
+            }
+      return nearest;
+    }
+
+    template <int dim>
+    void
+    describe_place(const Model<dim>         &model,
+                   const std::string        &what,
+                   const std::string        &body,
+                   const dealii::Point<dim> &place,
+                   std::ostream             &out)
+    {
+      if (const auto *point = nearest_point(model, body, place))
+        out << "  " << what << ": the material point at (" << point->location << "), "
+            << point->location.distance(place) << " m from its Place\n";
+    }
+
+    template <int dim>
+    void
+    describe_places(const Model<dim> &model, std::ostream &out)
+    {
+      std::size_t n = 0;
+      for (const auto &load : model.scene.point_loads)
+        if (n++ < most_lines)
+          describe_place(model,
+                         "Point loads/" + load.name +
+                           (load.n_points > 1 ? ", first of " + std::to_string(load.n_points) : ""),
+                         load.body,
+                         load.place,
+                         out);
+      n = 0;
+      for (const auto &probe : model.scene.probes)
+        if (!probe.face_mean && n++ < most_lines)
+          describe_place(model, "Probes/" + probe.name, probe.body, probe.place, out);
+    }
+
+    template <int dim>
+    void
+    describe_loads(const Model<dim> &model, Step<dim> &step, std::ostream &out)
+    {
+      const std::string unit  = dim == 2 ? ") N/m" : ") N";
+      const double      start = model.scene.time.start, end = model.scene.time.end;
+      const auto        first = step.total_load(start), last = step.total_load(end);
+      if (first.norm() + last.norm() == 0.)
+        return;
+      out << "  sum of all loads: (" << first << unit;
+      if ((first - last).norm() > 1e-12 * (first.norm() + last.norm()))
+        out << " at t = " << start << " s, (" << last << unit << " at t = " << end << " s";
+      out << "\n";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  describe_attachments(const Model<dim> &model, Step<dim> &step, std::ostream &out)
+  {
+    describe_conditions(model, out);
+    describe_places(model, out);
+    describe_loads(model, step, out);
+    out << std::flush;
+  }
+
+  template void
+  describe_attachments(const Model<2> &, Step<2> &, std::ostream &);
+  template void
+  describe_attachments(const Model<3> &, Step<3> &, std::ostream &);
+} // namespace kedge

@@ -1,0 +1,78 @@
+#include <kedge/simulation/run_log.h>
+
+namespace kedge
+{
+  template <int dim>
+  RunLog::RunLog(const RunFolder &folder, const Scene<dim> &scene)
+    : folder(folder)
+    , progress(folder, scene.output.progress_interval, scene.time.start, scene.time.end)
+    , rejections(folder)
+    , outlook(folder, scene.time.start, scene.time.end)
+    , loads(scene)
+    , end(scene.time.end)
+  {}
+
+
+
+  void
+  RunLog::accepted(const HistoryRow &row, const double wall)
+  {
+    if (progress.is_due())
+      rejections.sum_up();
+    progress.report(row);
+    outlook.report(row.time, row.time_step, wall, rejections.last_cause());
+  }
+
+
+
+  void
+  RunLog::cut(const double size, const double time, const std::string &cause)
+  {
+    rejections.cut(size, time, cause);
+  }
+
+
+
+  void
+  RunLog::stopped(const double       size,
+                  const double       time,
+                  const std::string &cause,
+                  const bool         at_floor)
+  {
+    rejections.stop(size, time, cause, at_floor ? "; the step is at its floor" : "");
+  }
+
+
+
+  void
+  RunLog::finish(const HistoryRow &row)
+  {
+    rejections.sum_up();
+    progress.finish(row);
+  }
+
+
+
+  void
+  RunLog::say_loads(const double time)
+  {
+    const std::string factors = loads.factors_at(time, end);
+    if (!factors.empty())
+      folder.log() << "  loads and supports reached, as parts of those at Time/End: " << factors
+                   << std::endl;
+  }
+
+
+
+  std::string
+  RunLog::bad_loads(const double begin, const double end_of_step) const
+  {
+    for (const double t : {begin, end_of_step, 0.5 * (begin + end_of_step)})
+      if (const std::string bad = loads.not_finite_at(t); !bad.empty())
+        return bad;
+    return "";
+  }
+
+  template RunLog::RunLog(const RunFolder &, const Scene<2> &);
+  template RunLog::RunLog(const RunFolder &, const Scene<3> &);
+} // namespace kedge

@@ -1,0 +1,84 @@
+#include <kedge/simulation/scene_loads.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace kedge
+{
+  template <int dim>
+  SceneLoads::SceneLoads(const Scene<dim> &scene)
+  {
+    const auto texts = [](const auto &components) {
+      return std::vector<std::string>(components.begin(), components.end());
+    };
+    add("Body force", texts(scene.body_force), scene.constants);
+    for (const auto &load : scene.point_loads)
+      add("Point loads/" + load.name, texts(load.force), scene.constants);
+    for (const auto &traction : scene.tractions)
+      add("Tractions/" + traction.name, texts(traction.traction), scene.constants);
+    for (const auto &pressure : scene.surface_pressures)
+      add("Surface pressures/" + pressure.name, {pressure.pressure}, scene.constants);
+    for (const auto &condition : scene.node_conditions)
+      {
+        std::vector<std::string> displacements;
+        for (const auto &component : condition.components)
+          if (component.kind == ConditionKind::displacement)
+            displacements.push_back(component.expression);
+        add("Node conditions/" + condition.name, displacements, scene.constants);
+      }
+  }
+
+
+
+  void
+  SceneLoads::add(const std::string                   &name,
+                  const std::vector<std::string>      &texts,
+                  const std::map<std::string, double> &constants)
+  {
+    Load load{name, {}};
+    for (const std::string &text : texts)
+      load.components.emplace_back(text, std::vector<std::string>{"t"}, constants);
+    loads.push_back(load);
+  }
+
+
+
+  std::string
+  SceneLoads::not_finite_at(const double t) const
+  {
+    std::ostringstream result;
+    for (const Load &load : loads)
+      for (const Expression &component : load.components)
+        if (const double value = component({t}); !std::isfinite(value))
+          result << (result.tellp() > 0 ? ", " : "") << load.name << " = " << component.text()
+                 << " is " << value << " at t = " << t << " s";
+    return result.str();
+  }
+
+
+
+  std::string
+  SceneLoads::factors_at(const double t, const double end) const
+  {
+    std::ostringstream result;
+    result.precision(4);
+    for (const Load &load : loads)
+      {
+        double product = 0., square = 0.;
+        bool   changes = false;
+        for (const Expression &component : load.components)
+          {
+            const double at_end = component({end});
+            product += component({t}) * at_end;
+            square += at_end * at_end;
+            changes = changes || !component.is_constant();
+          }
+        if (changes && square > 0. && std::isfinite(product / square))
+          result << (result.tellp() > 0 ? ", " : "") << load.name << " " << product / square;
+      }
+    return result.str();
+  }
+
+  template SceneLoads::SceneLoads(const Scene<2> &);
+  template SceneLoads::SceneLoads(const Scene<3> &);
+} // namespace kedge
