@@ -54,6 +54,13 @@ kedge_add_scene_test(scene.patch_traction.3d tests/scenes/patch_traction_3d.prm)
 kedge_add_scene_test(scene.patch_traction.3d.cut tests/scenes/patch_traction_3d.prm
   SET "Constants/shift = 0.81")
 kedge_add_scene_test(scene.dead_load_tension prm/dead_load_tension.prm COMPARE_RANKS 1e-7)
+# pressures that follow: uniform stress again, and Archimedes
+kedge_add_scene_test(scene.patch_pressure tests/scenes/patch_pressure.prm)
+kedge_add_scene_test(scene.patch_pressure.0.5 tests/scenes/patch_pressure.prm
+  SET "Constants/shift = 0.5" "Bodies/block/Points per cell = 3")
+kedge_add_scene_test(scene.submerged_block prm/submerged_block.prm)
+kedge_add_scene_test(scene.submerged_block.elsewhere prm/submerged_block.prm
+  SET "Constants/shift = 0.87")
 # a load on part of a surface weighs the same on any grid
 foreach(n 10 14 22)
   kedge_add_scene_test(scene.load_on_part.${n} tests/scenes/load_on_part.prm
@@ -333,6 +340,8 @@ kedge_add_refusal_test(missing_file "missing_file\\.prm.*No such file")
 kedge_add_scene_test(refusal.soil_scheme prm/terzaghi.prm
   SET "Time/Scheme = clc-midpoint" EXPECT_EXIT 1
   EXPECT_STDERR "Time/Scheme.*Saturated bodies" LABELS refusal)
+kedge_add_scene_test(refusal.empty_load prm/terzaghi.prm SET "Tractions/load/Traction = "
+  EXPECT_EXIT 1 EXPECT_STDERR "neither a Traction nor a Pressure" LABELS refusal)
 kedge_add_scene_test(refusal.dry_pressure prm/terzaghi.prm
   SET "Pore fluid/Density = " "Pore fluid/Hydraulic conductivity = " EXPECT_EXIT 1
   EXPECT_STDERR "Node conditions/top/Pore pressure.*bodies are dry" LABELS refusal)

@@ -1,4 +1,5 @@
 #include <kedge/porous/porous_term.h>
+#include <kedge/solid/load_columns.h>
 
 namespace kedge
 {
@@ -108,8 +109,7 @@ namespace kedge
       ledger.declare({"fluid_energy", "J", Section::energy, Kind::present, Role::stored, energy});
     columns.darcy =
       ledger.declare({"darcy_dissipation", "J", Section::energy, Kind::total, Role::lost, energy});
-    columns.work =
-      ledger.declare({"external_work", "J", Section::work, Kind::total, Role::supplied, energy});
+    columns.work       = ledger.declare(external_work);
     columns.solid_mass = ledger.declare({"solid_mass", "kg", Section::content});
     columns.fluid_mass =
       ledger.declare({"fluid_mass", "kg", Section::content, Kind::present, Role::stored, fluid});

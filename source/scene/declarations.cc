@@ -228,41 +228,53 @@ namespace kedge
            {"Force", required, allow.expressions({"t"}, "t"), "The whole force [N; N/m in 2D]."}}};
       }
 
+      /** Entries that say which faces a section is about, and more. */
+      std::vector<EntryDeclaration>
+      faces_of_a_body(const std::vector<EntryDeclaration> &more) const
+      {
+        std::vector<EntryDeclaration> entries = {
+          {"Body",
+           required,
+           allow.text("the name of a section of Bodies"),
+           "The body whose faces they are."},
+          {"Side", required, allow.side(), "The side to which the faces look at the start."},
+          {"Where",
+           "",
+           allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
+           "The part of the faces where this is true at the start; empty: all; 0: none."}};
+        entries.insert(entries.end(), more.begin(), more.end());
+        return entries;
+      }
+
+      ValuePattern
+      of_place_and_time() const
+      {
+        return allow.expression({"x", "y", "z", "t"}, coordinate_words("xyz") + ", t");
+      }
+
       SectionDeclaration
       tractions() const
       {
-        return {"Tractions",
-                "Dead loads on the outer faces of a body that look to one side.",
-                SectionKind::named,
-                {{"Body",
-                  required,
-                  allow.text("the name of a section of Bodies"),
-                  "The body that carries the load."},
-                 {"Side", required, allow.side(), "The side to which the faces look."},
-                 {"Where",
-                  "",
-                  allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-                  "The part of the faces where this is true at the start; empty: all."},
-                 {"Traction",
-                  required,
-                  allow.expressions({"t"}, "t"),
-                  "Force per area of the undeformed face [Pa]."}}};
-      }
-
-      /** Entries that say which faces a section is about, and one more. */
-      std::vector<EntryDeclaration>
-      faces_of_a_body(const EntryDeclaration &last) const
-      {
-        return {{"Body",
-                 required,
-                 allow.text("the name of a section of Bodies"),
-                 "The body whose faces they are."},
-                {"Side", required, allow.side(), "The side to which the faces look at the start."},
-                {"Where",
-                 "",
-                 allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-                 "Only faces where this is true at the start; empty: all; 0: none."},
-                last};
+        return {
+          "Tractions",
+          "Loads on the outer faces of a body that look to one side.",
+          SectionKind::named,
+          faces_of_a_body(
+            {{"Traction",
+              "",
+              allow.expressions({"x", "y", "z", "t"}, coordinate_words("xyz") + ", t").or_empty(),
+              "Dead force per area of the undeformed face [Pa]; x, y, z is its place at the "
+              "start."},
+             {"Pressure",
+              "",
+              of_place_and_time().or_empty(),
+              "Pressure that follows the face as it moves, turns and stretches, positive "
+              "inwards [Pa]; x, y, z is its present place."},
+             {"Resultant",
+              "false",
+              allow.truth(),
+              "Whether history.csv gets its force in the balance of the step, load_NAME_x, "
+              ".._y, .._z."}})};
       }
 
       SectionDeclaration
@@ -274,24 +286,22 @@ namespace kedge
           "move with the body, and press on it as water does.",
           SectionKind::named,
           faces_of_a_body(
-            {"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."})};
+            {{"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."}})};
       }
 
       SectionDeclaration
       surface_fluxes() const
       {
-        std::vector<std::string> variables = coordinates("xyz");
-        variables.emplace_back("t");
         return {"Surface fluxes",
                 "Fluid that enters through the outer faces of a saturated body that look to one "
                 "side; they move with the body.",
                 SectionKind::named,
                 faces_of_a_body(
-                  {"Flux",
-                   required,
-                   allow.expression(variables, coordinate_words("xyz") + ", t"),
-                   "Volume, as at pressure 0, per area of the face as it is and time, positive "
-                   "inwards [m/s]; x, y, z is its present place."})};
+                  {{"Flux",
+                    required,
+                    of_place_and_time(),
+                    "Volume, as at pressure 0, per area of the face as it is and time, positive "
+                    "inwards [m/s]; x, y, z is its present place."}})};
       }
 
       SectionDeclaration

@@ -215,11 +215,16 @@ namespace kedge
       for_each_name(reader, "Tractions", [&](const SectionReader &section) {
         find_name(reader, section, "Body", "Bodies");
         TractionParameters<dim> traction;
-        traction.name     = section.name();
-        traction.body     = section.text("Body");
-        traction.side     = parse_side<dim>(section.text("Side"));
-        traction.where    = section.text("Where");
-        traction.traction = components<dim>(section, "Traction");
+        traction.name  = section.name();
+        traction.body  = section.text("Body");
+        traction.side  = parse_side<dim>(section.text("Side"));
+        traction.where = section.text("Where");
+        if (!section.is_empty("Traction"))
+          traction.traction = components<dim>(section, "Traction");
+        traction.pressure  = section.text("Pressure");
+        traction.resultant = section.truth("Resultant");
+        if (section.is_empty("Traction") && section.is_empty("Pressure"))
+          throw section.error("Traction", "The load has neither a Traction nor a Pressure.");
         tractions.push_back(traction);
       });
       return tractions;

@@ -1,6 +1,7 @@
 // Which terms a scene has: the only place that asks which physics is on.
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
+#include <kedge/solid/follower_term.h>
 #include <kedge/solid/history_term.h>
 #include <kedge/solid/inertia_term.h>
 #include <kedge/solid/load_term.h>
@@ -36,18 +37,33 @@ namespace kedge
         if (here.transfer)
           add_term(std::make_unique<InertiaTerm<dim>>(field, patch, here.transfer->mass(), scheme));
       }
-    auto &loads = add_term(std::make_unique<LoadTerm<dim>>(
-      field,
-      patch,
-      ExternalLoads<dim>(scene.body_force,
-                         bodies.has_body_force,
-                         scene.point_loads,
-                         scene.constants,
-                         program),
-      SurfaceTractions<dim>(scene.tractions, scene.constants, program),
-      bodies.names,
-      motion,
-      scheme));
+    std::vector<TractionParameters<dim>> dead, following;
+    for (const auto &traction : scene.tractions)
+      {
+        if (!traction.traction[0].empty())
+          dead.push_back(traction);
+        if (!traction.pressure.empty())
+          following.push_back(traction);
+      }
+    auto &loads = add_term(
+      std::make_unique<LoadTerm<dim>>(field,
+                                      patch,
+                                      ExternalLoads<dim>(scene.body_force,
+                                                         bodies.has_body_force,
+                                                         scene.point_loads,
+                                                         scene.constants,
+                                                         program),
+                                      SurfaceTractions<dim>(dead, scene.constants, program),
+                                      bodies.names,
+                                      motion,
+                                      scheme));
+    if (!following.empty())
+      add_term(std::make_unique<FollowerTerm<dim>>(
+        field,
+        patch,
+        FollowerPressures<dim>(following, scene.constants, program),
+        bodies.names,
+        scheme));
     add_term(std::make_unique<SupportTerm<dim>>(field, patch, scene.node_conditions));
 
     const GhostTerm<dim> *ghosts = nullptr;

@@ -15,7 +15,13 @@ namespace kedge
     for (const auto &load : scene.point_loads)
       add("Point loads/" + load.name, texts(load.force), scene.constants);
     for (const auto &traction : scene.tractions)
-      add("Tractions/" + traction.name, texts(traction.traction), scene.constants);
+      {
+        const std::string name = "Tractions/" + traction.name;
+        if (!traction.traction[0].empty())
+          add(name, texts(traction.traction), scene.constants);
+        if (!traction.pressure.empty())
+          add(name, {traction.pressure}, scene.constants);
+      }
     for (const auto &pressure : scene.surface_pressures)
       add("Surface pressures/" + pressure.name, {pressure.pressure}, scene.constants);
     for (const auto &condition : scene.node_conditions)
@@ -36,8 +42,15 @@ namespace kedge
                   const std::map<std::string, double> &constants)
   {
     Load load{name, {}};
-    for (const std::string &text : texts)
-      load.components.emplace_back(text, std::vector<std::string>{"t"}, constants);
+    try
+      {
+        for (const std::string &text : texts)
+          load.components.emplace_back(text, std::vector<std::string>{"t"}, constants);
+      }
+    catch (const std::exception &)
+      {
+        return; // it depends on the place too, and the scene was read: nothing is wrong with it
+      }
     loads.push_back(load);
   }
 

@@ -1,3 +1,4 @@
+#include <kedge/solid/load_columns.h>
 #include <kedge/solid/load_term.h>
 #include <kedge/transfer/node_sums.h>
 
@@ -46,12 +47,11 @@ namespace kedge
   void
   LoadTerm<dim>::declare_books(Ledger &ledger)
   {
-    work = ledger.declare({"external_work",
-                           "J",
-                           Ledger::Section::work,
-                           Ledger::Kind::total,
-                           Ledger::Role::supplied,
-                           "energy"});
+    work = ledger.declare(external_work);
+    resultants.assign(tractions.names().size() * dim, 0);
+    for (std::size_t s = 0; s < tractions.names().size(); ++s)
+      for (int d = 0; d < dim && tractions.shows_resultant(s); ++d)
+        resultants[s * dim + d] = ledger.declare(force_column("load", tractions.names()[s], d));
   }
 
 
@@ -151,6 +151,13 @@ namespace kedge
                                  surface->forces(middle),
                                  trial.displacement(field));
     ledger.book(work, sum);
+    const auto on_tractions = tractions.forces(scheme.load_time(trial.times.t_n, trial.times.dt));
+    for (std::size_t f = 0; f < on_tractions.size(); ++f)
+      {
+        const unsigned int surface = tractions.points()[f].surface;
+        for (int d = 0; d < dim && tractions.shows_resultant(surface); ++d)
+          ledger.book(resultants[surface * dim + d], on_tractions[f][d]);
+      }
   }
 
   template class LoadTerm<2>;

@@ -1,3 +1,4 @@
+#include <kedge/solid/load_columns.h>
 #include <kedge/solid/support_term.h>
 
 namespace kedge
@@ -17,19 +18,11 @@ namespace kedge
   void
   SupportTerm<dim>::declare_books(Ledger &ledger)
   {
-    work = ledger.declare({"external_work",
-                           "J",
-                           Ledger::Section::work,
-                           Ledger::Kind::total,
-                           Ledger::Role::supplied,
-                           "energy"});
+    work = ledger.declare(external_work);
     reactions.assign(conditions.size() * dim, 0);
     for (std::size_t c = 0; c < conditions.size(); ++c)
       for (int d = 0; d < dim && conditions[c].reaction; ++d)
-        reactions[c * dim + d] = ledger.declare({"reaction_" + conditions[c].name + "_" + "xyz"[d],
-                                                 "N",
-                                                 Ledger::Section::force,
-                                                 Ledger::Kind::of_step});
+        reactions[c * dim + d] = ledger.declare(force_column("reaction", conditions[c].name, d));
   }
 
 

@@ -80,8 +80,9 @@ namespace kedge
       {
         std::array<Expression, std::size_t(dim)> of_surface;
         for (int d = 0; d < dim; ++d)
-          of_surface[d] = Expression(p.traction[d], {"t"}, constants);
+          of_surface[d] = Expression(p.traction[d], {"x", "y", "z", "t"}, constants);
         expressions.push_back(of_surface);
+        resultants.push_back(p.resultant);
       }
   }
 
@@ -91,16 +92,17 @@ namespace kedge
   std::vector<dealii::Tensor<1, dim>>
   SurfaceTractions<dim>::forces(const double t) const
   {
-    std::vector<dealii::Tensor<1, dim>> tractions, result;
-    for (const auto &of_surface : expressions)
-      {
-        dealii::Tensor<1, dim> traction;
-        for (int d = 0; d < dim; ++d)
-          traction[d] = program.factor(t) * of_surface[d]({program.time(t)});
-        tractions.push_back(traction);
-      }
+    std::vector<dealii::Tensor<1, dim>> result;
     for (const auto &face : this->points())
-      result.push_back(face.reference_area * tractions[face.surface]);
+      {
+        double values[4] = {0., 0., 0., program.time(t)};
+        for (int d = 0; d < dim; ++d)
+          values[d] = face.reference_place[d];
+        dealii::Tensor<1, dim> force;
+        for (int d = 0; d < dim; ++d)
+          force[d] = program.factor(t) * face.reference_area * expressions[face.surface][d](values);
+        result.push_back(force);
+      }
     return result;
   }
 

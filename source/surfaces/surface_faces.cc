@@ -54,7 +54,10 @@ namespace kedge
               continue;
             part.offset[direction] = sign * half;
             faces_of[point.record.id].push_back(
-              {s, part.fraction * state.reference_volume / (2. * half), part.offset});
+              {s,
+               part.fraction * state.reference_volume / (2. * half),
+               point.record.location + part.offset,
+               part.offset});
             state.loaded = 1.;
             any          = true;
           }
@@ -88,8 +91,9 @@ namespace kedge
       const dealii::Tensor<2, dim>  cofactor = determinant(F) * transpose(invert(F));
       for (const Face &face : found->second)
         {
-          const int         d = static_cast<int>(parameters[face.surface].side / 2);
-          SurfacePoint<dim> point{points.slot_of[number], face.surface, {}, {}, face.area, {}};
+          const int d = static_cast<int>(parameters[face.surface].side / 2);
+          SurfacePoint<dim>
+            point{points.slot_of[number], face.surface, {}, {}, face.area, face.place, {}};
           const dealii::Tensor<1, dim> offset = F * face.offset;
           for (int i = 0; i < dim; ++i)
             {

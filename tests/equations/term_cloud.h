@@ -41,11 +41,13 @@ namespace kedge::test
         term->declare_unknowns(unknowns);
       for (auto &term : terms)
         term->declare_books(ledger);
-      equations = std::make_unique<StepEquations<dim>>(std::vector<const Patch<dim> *>{&patch},
+      LinearSolverParameters direct; // corrections that are exact but for round-off
+      direct.kind = LinearSolverKind::direct;
+      equations   = std::make_unique<StepEquations<dim>>(std::vector<const Patch<dim> *>{&patch},
                                                        unknowns,
                                                        terms,
                                                        scheme,
-                                                       LinearSolverParameters());
+                                                       direct);
       patch.reinit(cloud.points, [&](std::vector<unsigned char> &reached) {
         for (auto &term : terms)
           term->reach(0, reached);

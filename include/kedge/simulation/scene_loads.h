@@ -9,7 +9,10 @@
 
 namespace kedge
 {
-  /** Loads, prescribed displacements and pressures of a scene as functions of time, by name. */
+  /**
+   * Loads, prescribed displacements and pressures of a scene that are functions of time alone,
+   * by name.
+   */
   class SceneLoads
   {
   public:

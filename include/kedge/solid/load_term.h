@@ -83,6 +83,7 @@ namespace kedge
     std::vector<const SurfaceLoads<dim> *> on_faces;       ///< tractions and others
     std::vector<double>                    external_force; ///< at the owned nodes [N]
     Ledger::Index                          work = 0;
+    std::vector<Ledger::Index>             resultants; ///< dim per traction; 0 where not shown
   };
 } // namespace kedge
 

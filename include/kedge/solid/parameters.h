@@ -22,11 +22,14 @@ namespace kedge
     std::array<std::string, dim> force; ///< expressions of t [N; N/m in 2D]
   };
 
-  /** A dead traction on outer faces of a body. */
+  /** A load on outer faces of a body: dead, or a pressure that follows them. */
   template <int dim>
   struct TractionParameters : SurfaceParameters
   {
-    std::array<std::string, dim> traction; ///< expressions of t, per reference area [Pa]
+    /** Expressions of the place at the start and t, per reference area [Pa]; empty: none. */
+    std::array<std::string, dim> traction;
+    std::string                  pressure; ///< expression of the place now and t [Pa]; empty: none
+    bool                         resultant = false; ///< the force is a column of the history
   };
 } // namespace kedge
 

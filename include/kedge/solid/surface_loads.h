@@ -49,9 +49,17 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>>
     forces(const double t) const override;
 
+    /** Whether history.csv is to have the force on a surface. */
+    bool
+    shows_resultant(const unsigned int surface) const
+    {
+      return resultants[surface];
+    }
+
   private:
     const LoadProgram                                     program;
-    std::vector<std::array<Expression, std::size_t(dim)>> expressions; ///< of t [Pa]
+    std::vector<std::array<Expression, std::size_t(dim)>> expressions; ///< of x, y, z, t [Pa]
+    std::vector<bool>                                     resultants;
   };
 } // namespace kedge
 

@@ -15,12 +15,13 @@ namespace kedge
   template <int dim>
   struct SurfacePoint
   {
-    unsigned int slot;
-    unsigned int surface;        ///< number of the surface
-    double       offset[dim];    ///< from the point to the face's centre [m]
-    double       area[dim];      ///< outward normal times area [m^2]
-    double       reference_area; ///< of the undeformed face [m^2]
-    Stencil<dim> functions;      ///< of the nodes at the face, see functions_at_face()
+    unsigned int       slot;
+    unsigned int       surface;         ///< number of the surface
+    double             offset[dim];     ///< from the point to the face's centre [m]
+    double             area[dim];       ///< outward normal times area [m^2]
+    double             reference_area;  ///< of the undeformed face [m^2]
+    dealii::Point<dim> reference_place; ///< of its centre [m]
+    Stencil<dim>       functions;       ///< of the nodes at the face, see functions_at_face()
   };
 
   /**
@@ -56,6 +57,16 @@ namespace kedge
       return parameters.empty();
     }
 
+    /** Of the surfaces. */
+    std::vector<std::string>
+    names() const
+    {
+      std::vector<std::string> result;
+      for (const auto &surface : parameters)
+        result.push_back(surface.name);
+      return result;
+    }
+
     /** Of this rank, by increasing slot. */
     const std::vector<SurfacePoint<dim>> &
     points() const
@@ -68,6 +79,7 @@ namespace kedge
     {
       unsigned int           surface;
       double                 area;   ///< undeformed [m^2]
+      dealii::Point<dim>     place;  ///< of its centre, at the start [m]
       dealii::Tensor<1, dim> offset; ///< undeformed, from the point to the face's centre [m]
     };
 
