@@ -23,6 +23,15 @@ namespace kedge
       return width;
     }
 
+    /** Entries on all ranks. */
+    double
+    n_entries(const SparseSystem &system)
+    {
+      double entries = static_cast<double>(system.column.size());
+      MPI_Allreduce(MPI_IN_PLACE, &entries, 1, MPI_DOUBLE, MPI_SUM, system.communicator);
+      return entries;
+    }
+
     /**
      * Seconds that each method takes on one core of 2020's make; only ratios
      * matter. Fitted to measurements from 100 to 1e5 unknowns: matrices of
@@ -99,12 +108,21 @@ namespace kedge
 
 
 
+  double
+  LinearSolver::direct_time(const SparseSystem &system) const
+  {
+    const double n = static_cast<double>(system.n_global);
+    return std::min(banded_time(n, static_cast<double>(bandwidth(system))),
+                    umfpack_time(n, n_entries(system), traits.space_dimension));
+  }
+
+
+
   LinearSolverKind
   LinearSolver::cheapest(const SparseSystem &system)
   {
-    const double n       = static_cast<double>(system.n_global);
-    double       entries = static_cast<double>(system.column.size());
-    MPI_Allreduce(MPI_IN_PLACE, &entries, 1, MPI_DOUBLE, MPI_SUM, system.communicator);
+    const double n         = static_cast<double>(system.n_global);
+    const double entries   = n_entries(system);
     const bool   multigrid = !traits.dominated_by_inertia;
     const double banded    = banded_time(n, static_cast<double>(bandwidth(system)));
     const double umfpack   = umfpack_time(n, entries, traits.space_dimension);

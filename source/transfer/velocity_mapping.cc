@@ -22,7 +22,18 @@ namespace kedge
     constexpr double       first_tolerance = 1e-9;
     constexpr double       later_tolerance = 1e-6;
     constexpr unsigned int most_iterations = 400;
-    constexpr double       longest_step    = 1e3;
+
+    /**
+     * Well conditioned systems need fewer iterations than these. Others are factorised, if that is
+     * expected to take less time than so many iterations. (What decides is counted, not measured:
+     * the same run takes the same way.)
+     */
+    constexpr unsigned int few_iterations   = 40;
+    constexpr double       usual_iterations = 150.;
+
+    /** Seconds of an iteration for each entry of the matrix and component, as in LinearSolver. */
+    constexpr double time_of_entry = 8e-10;
+    constexpr double longest_step  = 1e3;
   } // namespace
 
 
@@ -76,9 +87,11 @@ namespace kedge
 
 
   template <int dim>
-  LinearStatus
-  VelocityMapping<dim>::factorise_all()
+  void
+  VelocityMapping<dim>::find_pattern(Component &component)
   {
+    if (component.solver)
+      return;
     LinearSolverParameters parameters;
     parameters.tolerance      = 1e-10; // the corrections do the rest
     parameters.max_iterations = 2000;
@@ -86,15 +99,20 @@ namespace kedge
     traits.space_dimension      = dim;
     traits.positive_definite    = true;
     traits.dominated_by_inertia = true;
+    component.solver            = std::make_unique<LinearSolver>(parameters, traits);
+    component.equations.reinit(*patch, component.status, *mass);
+  }
+
+
+
+  template <int dim>
+  LinearStatus
+  VelocityMapping<dim>::factorise_all()
+  {
     for (Component &component : components)
       if (!component.is_factorised)
         {
-          if (!component.has_pattern)
-            {
-              component.equations.reinit(*patch, component.status, *mass);
-              component.solver      = std::make_unique<LinearSolver>(parameters, traits);
-              component.has_pattern = true;
-            }
+          find_pattern(component);
           component.equations.fill(*patch, *mass);
           const LinearStatus status = factorise(component);
           if (!status.success)
@@ -156,6 +174,31 @@ namespace kedge
 
 
 
+  /** Conjugate gradients; false where the system is to be factorised instead (collective). */
+  template <int dim>
+  bool
+  VelocityMapping<dim>::iterate(const double               tolerance,
+                                const std::vector<double> &defect,
+                                std::vector<double>       &correction,
+                                double                    &energy)
+  {
+    const double enough = tolerance * system.norm(defect);
+    if (system.iterate({enough, few_iterations, longest_step}, defect, correction, energy))
+      return true;
+    double direct_time = 0., entries = 0.;
+    for (Component &component : components)
+      {
+        find_pattern(component);
+        direct_time += component.solver->direct_time(component.equations.system());
+      }
+    entries = static_cast<double>(mass->values().size()) * dim;
+    entries = dealii::Utilities::MPI::sum(entries, patch->nodes.communicator());
+    return direct_time > usual_iterations * time_of_entry * entries &&
+           system.iterate({enough, most_iterations, longest_step}, defect, correction, energy);
+  }
+
+
+
   template <int dim>
   LinearStatus
   VelocityMapping<dim>::solve(const std::vector<double> &momentum, std::vector<double> &nodal)
@@ -179,11 +222,7 @@ namespace kedge
 
         const double tolerance = k == 0 ? first_tolerance : later_tolerance;
         double       energy    = 0.;
-        is_hard                = is_hard ||
-                  !system.iterate({tolerance * system.norm(defect), most_iterations, longest_step},
-                                  defect,
-                                  correction,
-                                  energy);
+        is_hard                = is_hard || !iterate(tolerance, defect, correction, energy);
         if (is_hard)
           {
             LinearStatus status = factorise_all();

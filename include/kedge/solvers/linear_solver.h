@@ -104,6 +104,10 @@ namespace kedge
     LinearStatus
     solve(const std::vector<double> &b, std::vector<double> &x, const double tolerance = 0.);
 
+    /** What a direct factorisation of such a system is expected to take [s] (collective). */
+    double
+    direct_time(const SparseSystem &system) const;
+
     /** The method in use, for the log. */
     std::string
     method() const;

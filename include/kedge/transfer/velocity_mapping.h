@@ -14,7 +14,7 @@ namespace kedge
    * solved for the free components; prescribed components have their given
    * value. It is the projection, in the mass norm, onto what the grid can do.
    *
-   * The system is a MassSystem; it is factorised only where conjugate gradients fail.
+   * The system is a MassSystem; it is factorised where conjugate gradients fail, or take longer.
    */
   template <int dim>
   class VelocityMapping
@@ -38,14 +38,20 @@ namespace kedge
     {
       std::vector<NodalStatus>      status;
       EquationSystem<dim>           equations;
-      std::unique_ptr<LinearSolver> solver;
+      std::unique_ptr<LinearSolver> solver; ///< once its pattern is known
       SparseSystem                  raised; ///< with a slightly larger diagonal
       bool                          is_factorised = false;
-      bool                          has_pattern   = false;
     };
 
     void
     find_components();
+    bool
+    iterate(const double               tolerance,
+            const std::vector<double> &defect,
+            std::vector<double>       &correction,
+            double                    &energy);
+    void
+    find_pattern(Component &component);
     LinearStatus
     factorise_all();
     LinearStatus
@@ -56,7 +62,7 @@ namespace kedge
     const Patch<dim>      *patch   = nullptr;
     const NodeMatrix<dim> *mass    = nullptr;
     MassSystem<dim>        system  = MassSystem<dim>(MassVectors::velocities);
-    bool                   is_hard = false; ///< conjugate gradients failed in this step
+    bool                   is_hard = false; ///< no conjugate gradients in this step
 
     std::vector<Component>                     components;
     std::array<unsigned int, std::size_t(dim)> component_of_direction;
