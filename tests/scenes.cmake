@@ -44,6 +44,18 @@ kedge_add_scene_test(scene.cut_bodies prm/cut_bodies.prm COMPARE_RANKS 1e-9)
 kedge_add_scene_test(scene.wedge prm/wedge.prm COMPARE_RANKS 1e-9)
 kedge_add_scene_test(scene.translating_body.linear prm/translating_body.prm
   SET "Bodies/disc/Basis = linear")
+# pieces too small to fill a cell: a cube, a rod and a sheet of one cell, a single point, threads of points
+kedge_add_scene_test(scene.small_piece tests/scenes/small_piece.prm COMPARE_RANKS 1e-8)
+kedge_add_scene_test(scene.small_piece.linear tests/scenes/small_piece.prm
+  SET "Bodies/b/Basis = linear" "Time/Scheme = newmark")
+kedge_add_scene_test(scene.small_piece.rod tests/scenes/small_piece.prm SET "Constants/lx = 3")
+kedge_add_scene_test(scene.small_piece.sheet tests/scenes/small_piece.prm
+  SET "Constants/lx = 3" "Constants/ly = 3")
+kedge_add_scene_test(scene.small_piece.point tests/scenes/small_piece.prm
+  SET "Bodies/b/Points per cell = 1")
+kedge_add_scene_test(scene.small_piece.thread tests/scenes/small_piece.prm
+  SET "Bodies/b/Points per cell = 1" "Constants/lx = 3")
+
 # surface loads: uniform stress to round-off wherever the block ends within a cell
 kedge_add_scene_test(scene.patch_traction prm/patch_traction.prm)
 foreach(shift 0 0.5 0.97)

@@ -180,7 +180,9 @@ namespace kedge
           for (unsigned int v = 0; v < (1u << dim); ++v)
             {
               const unsigned int root = corner<dim>(window, cell, v, filling.edge);
-              if (filling.volume[root] < filling.threshold)
+              if (filling.volume[root] < filling.threshold ||
+                  (!filling.pieces.of_node.empty() &&
+                   filling.pieces.of_node[root] != filling.pieces.of_node[tied_node]))
                 return;
               if (of_same_body)
                 shared &= filling.bodies[root];
@@ -245,7 +247,8 @@ namespace kedge
     Filling            whole{std::vector<double>(n_nodes, 0.),
                   std::vector<std::uint64_t>(filling.bodies.size(), 0),
                   filling.threshold,
-                  2};
+                  2,
+                  {}};
     std::vector<bool>  used(n_nodes, false);
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
@@ -277,6 +280,49 @@ namespace kedge
 
 
 
+  /** Ties nodes with too little around them; all ranks find the same ties and keep their own. */
+  template <int dim>
+  void
+  NodeTies<dim>::tie_badly_filled(const BackgroundGrid<dim>        &grid,
+                                  const Filling                    &filling,
+                                  const std::vector<unsigned char> &reached,
+                                  const unsigned int                components)
+  {
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+    const auto         keep = [&](Tie &&tie) {
+      // the owner of a tied node must know it too, even if none of its points reach it
+      if (reached[tie.node] || grid.node_owner(tie.node) == rank)
+        window_ties.push_back(std::move(tie));
+    };
+    std::vector<bool>         is_tied(reached.size(), false);
+    std::vector<unsigned int> left;
+    for (unsigned int node = 0; node < reached.size(); ++node)
+      if (filling.volume[node] > 0. && filling.volume[node] < filling.threshold)
+        {
+          Tie tie{node, {}, {}, components};
+          is_tied[node] = tie_to_nearest_cell(grid.window(), filling, tie);
+          if (is_tied[node])
+            keep(std::move(tie));
+          else
+            left.push_back(node);
+        }
+    if (left.empty())
+      return;
+    for (NodeSum &sum : tie_small_pieces(grid.window(),
+                                         filling.volume,
+                                         filling.pieces,
+                                         is_tied,
+                                         left,
+                                         filling.edge,
+                                         farthest_ring))
+      keep({sum.node, std::move(sum.roots), std::move(sum.weights), components});
+    std::sort(window_ties.begin(), window_ties.end(), [](const Tie &a, const Tie &b) {
+      return a.node < b.node;
+    });
+  }
+
+
+
   template <int dim>
   void
   NodeTies<dim>::find(const BackgroundGrid<dim>  &grid,
@@ -291,21 +337,19 @@ namespace kedge
     moves.clear();
     if (threshold > 0. || coarse_pressure)
       {
-        const Filling      filling{nodal_filling(grid, points, reached),
-                              bodies_at_nodes(grid, points),
-                              threshold,
-                              1};
-        const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
-        const unsigned int components = (1u << (coarse_pressure ? dim : dim + 1)) - 1;
-        // the owner of a tied node must know it too, even if none of its points reach it
-        for (unsigned int node = 0; node < reached.size(); ++node)
-          if (filling.volume[node] > 0. && filling.volume[node] < threshold &&
-              (reached[node] || grid.node_owner(node) == rank))
-            {
-              Tie tie{node, {}, {}, components};
-              if (tie_to_nearest_cell(grid.window(), filling, tie))
-                window_ties.push_back(std::move(tie));
-            }
+        Filling    filling{nodal_filling(grid, points, reached),
+                        bodies_at_nodes(grid, points),
+                        threshold,
+                        1,
+                        {}};
+        const auto is_low = [&](const double volume) {
+          return volume > 0. && volume < threshold;
+        };
+        if (std::any_of(filling.volume.begin(), filling.volume.end(), is_low))
+          {
+            filling.pieces = find_pieces(grid, points);
+            tie_badly_filled(grid, filling, reached, (1u << (coarse_pressure ? dim : dim + 1)) - 1);
+          }
         if (coarse_pressure)
           {
             tie_pressures(grid, filling, reached);

@@ -125,15 +125,38 @@ namespace kedge
 
 
   template <int dim>
+  std::string
+  hint_on_points(const Scene<dim> &scene)
+  {
+    for (const auto &body : scene.bodies)
+      for (const unsigned int n : body.points_per_cell)
+        if (n < 2)
+          return "body '" + body.name +
+                 "' has one material point per cell in some direction, which cannot hold all "
+                 "motions of its nodes: take two or more (Points per cell), or damp them "
+                 "(Mapping/Lumping > 0)";
+    return "";
+  }
+
+
+
+  template <int dim>
   void
   describe_attachments(const Model<dim> &model, Step<dim> &step, std::ostream &out)
   {
+    const std::string hint = hint_on_points(model.scene);
+    if (!hint.empty())
+      out << "  note: " << hint << "\n";
     describe_conditions(model, out);
     describe_places(model, out);
     describe_loads(model, step, out);
     out << std::flush;
   }
 
+  template std::string
+  hint_on_points(const Scene<2> &);
+  template std::string
+  hint_on_points(const Scene<3> &);
   template void
   describe_attachments(const Model<2> &, Step<2> &, std::ostream &);
   template void

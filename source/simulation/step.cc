@@ -1,28 +1,9 @@
+#include <kedge/simulation/attachments.h>
 #include <kedge/simulation/step.h>
 #include <kedge/transfer/node_sums.h>
 
 namespace kedge
 {
-  namespace
-  {
-    /** What to change if bodies have too few points to hold their nodes; else empty. */
-    template <int dim>
-    std::string
-    hint_on_points(const Scene<dim> &scene)
-    {
-      for (const auto &body : scene.bodies)
-        for (const unsigned int n : body.points_per_cell)
-          if (n < 2)
-            return "; body '" + body.name +
-                   "' has one material point per cell in some direction, which cannot hold all "
-                   "motions of its nodes: take two or more (Points per cell), or damp them "
-                   "(Mapping/Lumping > 0)";
-      return "";
-    }
-  } // namespace
-
-
-
   template <int dim>
   Step<dim>::Step(Model<dim> &model)
     : model(model)
@@ -132,8 +113,10 @@ namespace kedge
   std::string
   Step<dim>::failure_of(const NewtonReport &newton) const
   {
-    const std::string diagnosis = step_equations.diagnosis();
-    return newton.cause + (diagnosis.empty() ? "" : "; " + diagnosis) + hint_on_points(model.scene);
+    std::string result = newton.cause;
+    for (const std::string &more : {step_equations.diagnosis(), hint_on_points(model.scene)})
+      result += more.empty() ? "" : "; " + more;
+    return result;
   }
 
 

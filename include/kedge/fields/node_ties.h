@@ -2,6 +2,7 @@
 #define kedge_fields_node_ties_h
 
 #include <kedge/fields/node_conditions.h>
+#include <kedge/fields/small_pieces.h>
 #include <kedge/fields/step_points.h>
 
 namespace kedge
@@ -13,9 +14,10 @@ namespace kedge
    *   u_t = sum_j w_tj u_j
    * from the nodes j of the nearest cell whose nodes are all well filled and
    * reached by a body that reaches the tied node too; only where there is none
-   * nearby, of any well-filled cell. In matrix form u = C u^; residuals become C^T r, matrices C^T
-   * A C. As C reproduces linear fields, both momenta are conserved, and as mass, residual and
-   * motion use the same C, so is energy.
+   * nearby, of any well-filled cell; always of the same piece of material (Pieces). Nodes of pieces
+   * that are too small to fill a cell well are tied by tie_small_pieces(). In matrix form u = C u^;
+   * residuals become C^T r, matrices C^T A C. As C reproduces linear fields, both momenta are
+   * conserved, and as mass, residual and motion use the same C, so is energy.
    *
    * On a lattice with two intervals along a cell's edge the pore pressure may
    * live at the corners of whole cells alone, the even nodes. It is bilinear
@@ -112,6 +114,7 @@ namespace kedge
       std::vector<std::uint64_t> bodies; ///< that reach it; empty if there is only one
       double                     threshold;
       int                        edge; ///< of a cell, in intervals of the lattice
+      Pieces                     pieces;
     };
 
     std::vector<LatticeIndex<dim>>
@@ -121,6 +124,11 @@ namespace kedge
                   const unsigned int        tied_node) const;
     bool
     tie_to_nearest_cell(const LatticeWindow<dim> &window, const Filling &filling, Tie &tie) const;
+    void
+    tie_badly_filled(const BackgroundGrid<dim>        &grid,
+                     const Filling                    &filling,
+                     const std::vector<unsigned char> &reached,
+                     const unsigned int                components);
     void
     tie_pressures(const BackgroundGrid<dim>        &grid,
                   const Filling                    &filling,

@@ -17,6 +17,11 @@ namespace kedge
   template <int dim>
   void
   describe_attachments(const Model<dim> &model, Step<dim> &step, std::ostream &out);
+
+  /** What to change if a body has too few points to hold its nodes; else empty. */
+  template <int dim>
+  std::string
+  hint_on_points(const Scene<dim> &scene);
 } // namespace kedge
 
 #endif
