@@ -17,7 +17,33 @@ PROGRAM, OUTPUT = Path(sys.argv[1]), Path(sys.argv[2])
 sys.path.insert(0, str(PROGRAM.parent))
 
 import numpy as np  # noqa: E402
+from scene_reader import SceneFile, Unknown, evaluate  # noqa: E402
+from smooth_field import FilledPart, NodalAverage  # noqa: E402
 from vtu_reader import read_points  # noqa: E402
+
+PARAMETERS = """set Dimension = 2
+set Title     = A bar swings
+subsection Constants
+  set a = 2*b
+  set b = 0.5
+end
+subsection Grid
+  set Origin = -a, -2
+  set Extent = 12, 6
+  set Cells  = 12/a, 6
+end
+subsection Bodies
+  subsection bar
+    set Geometry = box(0, 0; 10, 2)
+  end
+end
+subsection Node conditions
+  subsection foot
+    set Reaction    = true
+    set Component y = displacement(-a*t/4)
+  end
+end
+"""
 
 
 def compressed(values):
@@ -79,6 +105,7 @@ def body(time):
             "velocity": (np.stack([zero, 0.05 * x**2, zero], axis=1), list("xyz")),
             "cauchy_stress": (stress, ["xx", "yy", "zz", "xy", "yz", "xz"]),
             "pressure": (-stress[:, :1] / 3, []),
+            "body": (0 * stress[:, :1], []), "volume": (0 * stress[:, :1] + 0.25, []),
             "half_lengths": (np.full((len(x), 3), 0.25), list("xyz")),
             "deformation_gradient": (gradient, [a + b for a in "xyz" for b in "xyz"])}
 
@@ -87,14 +114,16 @@ def write_run(folder, frequency):
     """The output folder of a run that swings."""
     (folder / "points").mkdir(parents=True)
     times = np.linspace(0, 4, 161)
+    (folder / "parameters.prm").write_text(PARAMETERS, encoding="utf-8")
     with open(folder / "history.csv", "w", encoding="utf-8") as file:
         file.write("step,time,time_step,newton_iterations,linear_iterations,rejected_attempts,"
                    "kinetic_energy,strain_energy,external_work,total_energy,energy_error,"
-                   "linear_momentum_x,linear_momentum_y,angular_momentum_z,mass,wall_time\n")
+                   "linear_momentum_x,linear_momentum_y,angular_momentum_z,"
+                   "reaction_foot_y,mass,wall_time\n")
         for step, time in enumerate(times):
             kinetic = 1e3 * math.sin(frequency * time) ** 2
             file.write(f"{step},{time},0.025,{3 + step % 2},0,0,{kinetic},{1e3 - kinetic},0,1000,"
-                       f"{1e-10 * math.sin(9 * time)},{math.cos(frequency * time)},2,3,1,0.1\n")
+                       f"{1e-10 * math.sin(9 * time)},{math.cos(frequency * time)},2,3,{-time / (1 + time)},1,0.1\n")
         file.write("161,4.0") # a row that was being written
     with open(folder / "probes.csv", "w", encoding="utf-8") as file:
         file.write("time,tip.position_x,tip.displacement_x,tip.displacement_y,tip.pressure\n")
@@ -142,10 +171,59 @@ def test_pictures():
     for folder, endings, bodies in (
             ("one/pictures", ("png", "svg"), ["body-pressure"]),
             ("both", ("svg",), ["body-cauchy_stress_xx-one", "body-cauchy_stress_xx-two"])):
-        for name in ["energies", "momenta", "solver", "probes", *bodies]:
+        for name in ["energies", "momenta", "solver", "probes", "reactions", "load-displacement",
+                     *bodies]:
             for ending in endings:
                 path = OUTPUT / folder / f"{name}.{ending}"
                 assert path.stat().st_size > 3000, path
+
+
+def test_choices():
+    """A curve of any two columns, bodies by name, points, ranges, units, a film."""
+    out = OUTPUT / "choices"
+    plot(OUTPUT / "one", "-o", out, "--formats", "png", "--curve", "probe.tip.displacement_y",
+         "history.kinetic_energy", "-f", "body", "-f", "cauchy_stress_xx", "--range", "-50", "50",
+         "--stress-unit", "kPa", "--time-unit", "min", "--log-time", "--film", "gif")
+    for name in ("curve.png", "body-body.png", "body-cauchy_stress_xx.png",
+                 "body-cauchy_stress_xx.gif"):
+        assert (out / name).stat().st_size > 3000, name
+    plot(OUTPUT / "one", "-o", out / "points", "--formats", "png", "--points", "--only", "body")
+    assert (out / "points/body-pressure.png").stat().st_size > 3000
+    assert "LOW < HIGH" in plot(OUTPUT / "one", "--range", "2", "1", code=2)
+    assert "probe.tip.pressure" in plot(OUTPUT / "one", "--curve", "time", "probe.tip.presure",
+                                        "-o", out, code=1)
+
+
+def test_scene_file():
+    """Expressions have the values that they have in a scene."""
+    scene = SceneFile(OUTPUT / "one/parameters.prm")
+    assert scene.constants == {"a": 1.0, "b": 0.5} # each may use the others, in any order
+    origin, cell = scene.grid()
+    assert list(origin) == [-1, -2] and list(cell) == [1, 1]
+    assert scene.names("Bodies") == ["bar"] and scene.title() == "A bar swings"
+    for text, value in (("2^3 - -1", 9), ("if(t > 1 && t < 3, sin(pi/2), 5)", 1), ("min(3, t)", 2)):
+        assert evaluate(text, {"t": 2.0}) == value, text
+    for text in ("__import__('os')", "t.real", "1/0", "foo(1)", ""):
+        try:
+            evaluate(text, {"t": 2.0})
+        except Unknown:
+            continue
+        raise AssertionError(text)
+
+
+def test_smooth_field():
+    """A constant stays one, also where no point is; a body fills itself."""
+    place = body(0)["Points"][0]
+    weights = np.random.default_rng(1).uniform(0.5, 2, len(place))
+    average = NodalAverage(place, np.full(len(place), 3.5), weights, [-1, -1], [1, 1])
+    everywhere = np.array([[0.3, 0.2, 0], [9.9, 1.99, 0], [-50, 70, 0]])
+    # means of equal numbers, but for rounding
+    assert np.allclose(average.at(everywhere), 3.5, rtol=1e-14)
+    filled = FilledPart(place, np.full(len(place), 0.25)) # 20 x 4 points of 0.5 x 0.5
+    # the mean over the body; the hats of half a spacing more let it vary by some percent
+    inside = filled.at(np.array([[3, 1, 0], [5.3, 1.1, 0], [8, 0.9, 0]]))
+    assert np.all(np.abs(inside - 1) < 0.2), inside
+    assert np.all(filled.at(np.array([[20, 1, 0], [5, -3, 0]])) < 0.05)
 
 
 def test_element_tests():
@@ -173,6 +251,9 @@ shutil.rmtree(OUTPUT, ignore_errors=True)
 OUTPUT.mkdir(parents=True)
 test_reader()
 test_pictures()
+test_choices()
+test_scene_file()
+test_smooth_field()
 test_element_tests()
 test_bad_input()
 print("all pictures drawn")

@@ -2,16 +2,23 @@
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path as Outline
 
 import style
+from smooth_field import FilledPart, smoothed
 from vtu_reader import BadFile, read_points, read_pvd
 
 # What is shown if the user does not say: the first of these that was written.
 FAVOURITES = ["von_mises_stress", "pressure", "cauchy_stress_yy", "velocity", "displacement",
               "det_F"]
-SIGNED = ("pressure", "cauchy_stress_", "kirchhoff_stress_", "velocity_", "displacement_")
-MANY_POINTS = 4000 # above, an SVG holds the body as an image: shapes would make it huge
+SIGNED = ("pressure", "cauchy_stress_", "kirchhoff_stress_", "total_stress_", "velocity_",
+          "displacement_")
+NOT_SMOOTHED = ("body", "id", "half_lengths", "mass", "volume")
 CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=float)
+OVERLAP = 1.03 # of the drawn domains of points, so that no gap shows between them
+RASTER = 500 # pixels of the smooth field along the longer side of a panel
 
 
 def choose(series, times, n_snapshots):
@@ -43,7 +50,7 @@ def spacing(points):
     return np.full(len(points.position), (box / len(points.position)) ** (1 / dimension))
 
 
-def shapes(points):
+def shapes(points, factor=OVERLAP):
     """The quadrilateral of each point of a plane body: its domain, deformed by F if F is known."""
     n_points = len(points.position)
     if "half_lengths" in points.fields:
@@ -57,49 +64,112 @@ def shapes(points):
         # the half-lengths follow the diagonal of U: undo that, then apply F
         initial = half / np.einsum("pii->pi", stretch(gradient))
         edges = gradient * initial[:, None, :]
-    return points.position[:, None, :2] + np.einsum("pij,cj->pci", edges, CORNERS)
+    return points.position[:, None, :2] + factor * np.einsum("pij,cj->pci", edges, CORNERS)
 
 
-def draw_plane(axes, points, values, norm, cmap):
+def draw_domains(axes, points, values, norm, cmap):
     """A plane body as the domains of its points."""
     collection = PolyCollection(shapes(points), array=values, norm=norm, cmap=cmap,
-                                edgecolors="face", linewidths=0.25)
+                                edgecolors="none", linewidths=0, antialiaseds=False)
     axes.add_collection(collection)
+    collection.set_rasterized(True) # thousands of shapes would make an SVG huge
     return collection
 
 
-def project(position):
-    """Parallel projection: right, up, and towards the viewer."""
-    azimuth, height = np.radians(-60), np.radians(25)
+def outline_of(points):
+    """What a plane body covers: the domains of its points together."""
+    corners = shapes(points)
+    closed = np.concatenate([corners, corners[:, :1]], axis=1).reshape(-1, 2)
+    codes = np.tile([Outline.MOVETO] + 3 * [Outline.LINETO] + [Outline.CLOSEPOLY], len(corners))
+    return Outline(closed, codes)
+
+
+def fill(axes, points, value_at, **how):
+    """A plane body filled with a function of the place, cut out along its points."""
+    outline = outline_of(points)
+    box = outline.get_extents()
+    step = max(box.width, box.height) / RASTER
+    x = np.arange(box.x0 - 4 * step, box.x1 + 5 * step, step)
+    y = np.arange(box.y0 - 4 * step, box.y1 + 5 * step, step)
+    place = np.stack([axis.ravel() for axis in np.meshgrid(x, y)], axis=1)
+    image = value_at(place).reshape(len(y), len(x))
+    how.update(origin="lower", aspect="equal", zorder=2,
+               extent=(x[0] - step / 2, x[-1] + step / 2, y[0] - step / 2, y[-1] + step / 2))
+    if "deformation_gradient" in points.fields and "half_lengths" in points.fields:
+        drawn = axes.imshow(image, interpolation="bilinear", **how)
+        drawn.set_clip_path(PathPatch(outline, transform=axes.transData))
+        return drawn
+    # the points' domains are not known once they turn or stretch
+    filled = FilledPart(points.position, np.maximum(spacing(points) ** 2, 1e-300))
+    part = filled.at(place).reshape(image.shape)
+    steepness = 0.5 * step / filled.cell[0] # of the part over a pixel
+    return axes.imshow(image, alpha=np.clip(0.5 + (part - 0.5) / steepness, 0, 1), **how)
+
+
+def draw_smooth(axes, points, fields, norm, cmap):
+    """A plane body in the nodal average of each of its bodies."""
+    drawn, bodies = None, body_numbers(points)
+    for body, field in fields.items():
+        drawn = fill(axes, points.subset(bodies == body), field.at, norm=norm, cmap=cmap)
+    return drawn
+
+
+def projection(view):
+    """Axes of a parallel projection: right, up, and towards the viewer (z is up)."""
+    azimuth, height = np.radians(view)
     right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
     towards = np.array([np.cos(height) * np.cos(azimuth), np.cos(height) * np.sin(azimuth),
                         np.sin(height)])
-    up = np.cross(towards, right)
-    return position @ np.stack([right, up, towards], axis=1)
+    return np.stack([right, np.cross(towards, right), towards], axis=1)
 
 
-def draw_solid(axes, points, values, norm, cmap):
-    """A body in space as squares, the nearest drawn last."""
-    place = project(points.position)
+def draw_solid(axes, points, values, norm, cmap, axes_of_view):
+    """A body in space as squares, the nearest drawn last, darker the farther away."""
+    place = points.position @ axes_of_view
     order = np.argsort(place[:, 2])
-    half = 0.6 * spacing(points)[order]
+    half = 0.62 * spacing(points)[order]
     squares = place[order, None, :2] + half[:, None, None] * CORNERS
-    collection = PolyCollection(squares, array=values[order], norm=norm, cmap=cmap,
-                                edgecolors=(0, 0, 0, 0.12), linewidths=0.2)
-    axes.add_collection(collection)
-    return collection
+    depth = place[order, 2]
+    shade = 0.72 + 0.28 * (depth - depth.min()) / max(np.ptp(depth), 1e-300)
+    colour = plt.get_cmap(cmap)(norm(values[order]))
+    colour[:, :3] *= shade[:, None]
+    axes.add_collection(PolyCollection(squares, facecolors=colour, edgecolors="none",
+                                       antialiaseds=False, rasterized=True))
+    return plt.cm.ScalarMappable(norm=norm, cmap=cmap)
 
 
-def colours(field, values):
+def draw_triad(axes, axes_of_view, low, high):
+    """The directions of x, y, z, and a bar that tells the scale, below the body."""
+    length = 0.12 * max(high - low)
+    corner = low + 0.6 * length
+    for direction, name in enumerate("xyz"):
+        tip = corner + length * axes_of_view[direction, :2]
+        axes.annotate("", tip, corner, arrowprops={"arrowstyle": "->", "linewidth": 1.0})
+        axes.text(*(corner + 1.25 * length * axes_of_view[direction, :2]), name, ha="center",
+                  va="center", fontsize=8)
+    bar = 10 ** np.floor(np.log10(0.4 * (high - low)[0]))
+    bar *= max(factor for factor in (1, 2, 5) if factor * bar <= 0.4 * (high - low)[0])
+    begin = np.array([high[0] - bar - 0.3 * length, low[1] + 0.3 * length])
+    axes.plot([begin[0], begin[0] + bar], [begin[1]] * 2, color="black", linewidth=2)
+    axes.text(begin[0] + bar / 2, begin[1] + 0.15 * length, f"{bar:g} m", ha="center",
+              va="bottom", fontsize=8)
+
+
+def colours(field, values, limits=None):
     """Limits and colour map; signed quantities are centred on zero."""
+    if limits:
+        signed = field.startswith(SIGNED) and limits[0] == -limits[1]
+        return plt.Normalize(*limits), "RdBu_r" if signed else "viridis"
     everything = np.concatenate(values)
     everything = everything[np.isfinite(everything)]
     low, high = (np.percentile(everything, [0.5, 99.5]) if len(everything) else (0.0, 1.0))
     if field.startswith(SIGNED) and low < 0 < high:
         largest = max(-low, high)
         return plt.Normalize(-largest, largest), "RdBu_r"
-    if high - low <= 1e-12 * max(abs(high), abs(low)):
-        low, high = low - 0.5 * abs(low) - 1e-300, high + 0.5 * abs(high) + 1e-300
+    if high - low <= 1e-9 * max(abs(high), abs(low)):
+        middle = 0.5 * (low + high)
+        half = 0.5 * abs(middle) if middle else 1.0
+        low, high = middle - half, middle + half
     return plt.Normalize(low, high), "viridis"
 
 
@@ -109,7 +179,7 @@ def layout(width, height, n_pictures):
     columns = 1 if ratio < 0.3 else min(n_pictures, 3 if ratio < 1 else 5)
     rows = -(-n_pictures // columns)
     panel = 6.5 if columns == 1 else 9.5 / columns
-    return rows, columns, (panel * columns + 1.2, (panel * ratio + 0.75) * rows)
+    return rows, columns, (panel * columns + 1.6, (panel * ratio + 0.75) * rows + 0.3)
 
 
 def field_of(points, field, path):
@@ -119,45 +189,137 @@ def field_of(points, field, path):
         if field is None and points.names():
             field = points.names()[0]
     if field not in points.names():
-        raise BadFile(f"{path} has no field '{field}'. It has: {', '.join(points.names())}")
+        raise BadFile(f"{path} has no field '{field}'. It has: {', '.join(points.names())}. "
+                      "Output/Fields of the scene says which fields are written.")
     return field
 
 
-def draw_body(run, field, times, n_snapshots):
-    """A figure of the run's body and the name of its field; None if it wrote no points."""
-    if not run.points_file.exists():
-        return None
-    series = read_pvd(run.points_file)
-    if not series:
-        return None
-    chosen = choose(series, times, n_snapshots)
-    states = [read_points(path) for _, path in chosen]
-    field = field_of(states[0], field, chosen[0][1])
-    values = [state.values(field).astype(float) for state in states]
-    in_space = run.dimension() == 3
-    flat = [project(state.position) if in_space else state.position for state in states]
+def body_numbers(points):
+    """To which body each point belongs; all to one if the file does not say."""
+    if "body" in points.fields:
+        return points.values("body").astype(int)
+    return np.zeros(len(points.position), dtype=int)
 
-    low = np.min([place.min(axis=0) for place in flat], axis=0)[:2]
-    high = np.max([place.max(axis=0) for place in flat], axis=0)[:2]
-    margin = 0.04 * max(high - low) + np.max(spacing(states[0]))
-    low, high = low - margin, high + margin
-    rows, columns, size = layout(*(high - low), len(states))
-    figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False)
-    norm, cmap = colours(field, values)
-    drawn = None
-    for panel in axes.flat[len(states):]:
-        panel.set_visible(False)
-    for panel, (time, _), state, value in zip(axes.flat, chosen, states, values):
-        drawn = (draw_solid if in_space else draw_plane)(panel, state, value, norm, cmap)
-        drawn.set_rasterized(len(value) > MANY_POINTS)
+
+class BodyPicture:
+    """The body of a run in a field: panels for some times, or frames of a film."""
+
+    def __init__(self, run, field, options):
+        self.run, self.options = run, options
+        self.series = read_pvd(run.points_file)
+        self.in_space = run.dimension() == 3
+        self.axes_of_view = projection(options.view)
+        first = read_points(self.series[0][1]) if self.series else None
+        self.field = field_of(first, field, self.series[0][1]) if self.series else None
+        self.unit = style.field_unit(self.field or "")
+        self.signed = False
+
+    def load(self, entries):
+        """The points of some times, and what they show: numbers, and smooth fields."""
+        states = [read_points(path) for _, path in entries]
+        values = [state.values(self.field).astype(float) for state in states]
+        grid = self.run.scene.grid()
+        fields = [None] * len(states)
+        if not self.options.points and grid and not self.field.startswith(NOT_SMOOTHED):
+            for index, (state, value) in enumerate(zip(states, values)):
+                weights = state.values("volume") if "volume" in state.fields else np.ones(len(value))
+                fields[index] = smoothed(state.position, value, body_numbers(state), weights, grid)
+                numbers = body_numbers(state)
+                values[index] = np.empty(len(value))
+                for body, average in fields[index].items():
+                    mine = numbers == body
+                    values[index][mine] = average.at(state.position[mine])
+        return states, values, fields
+
+    def flat(self, state):
+        """Where the points are on paper."""
+        return (state.position @ self.axes_of_view if self.in_space else state.position)[:, :2]
+
+    def limits(self, states):
+        """The part of the plane that holds the body at all these times."""
+        low = np.min([self.flat(state).min(axis=0) for state in states], axis=0)
+        high = np.max([self.flat(state).max(axis=0) for state in states], axis=0)
+        margin = 0.04 * max(high - low) + np.max(spacing(states[0]))
+        if self.in_space:
+            return low - [margin, 3 * margin], high + margin
+        return low - margin, high + margin
+
+    def scaling(self, values):
+        """Factor, unit, colours: numbers of a handy size."""
+        factor, unit = style.handy(self.unit, values, self.options.stress_unit)
+        wanted = self.options.range
+        norm, cmap = colours(self.field, [factor * value for value in values], wanted)
+        self.signed = cmap == "RdBu_r"
+        return factor, unit, norm, cmap
+
+    def draw(self, panel, state, value, fields, scaling):
+        """One panel."""
+        factor, _, norm, cmap = scaling
+        if self.field == "body":
+            return self.draw_bodies(panel, state)
+        if self.in_space:
+            return draw_solid(panel, state, factor * value, norm, cmap, self.axes_of_view)
+        if fields is None:
+            return draw_domains(panel, state, factor * value, norm, cmap)
+        for field in fields.values():
+            field.field *= factor
+        return draw_smooth(panel, state, fields, norm, cmap)
+
+    def draw_bodies(self, panel, state):
+        """Each body in its colour."""
+        numbers = body_numbers(state)
+        for body in np.unique(numbers):
+            mine = state.subset(numbers == body)
+            colour = style.colour(int(body), len(np.unique(numbers)))
+            if self.in_space:
+                place = self.flat(mine)
+                panel.scatter(*place.T, s=3, color=colour)
+            else:
+                fill(panel, mine, lambda place: np.zeros(len(place)), cmap=ListedColormap([colour]))
+
+    def finish_panel(self, panel, time, low, high):
+        """Limits, axes and the time."""
         panel.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal",
-                  title=f"t = {time:.4g} s")
-        if in_space:
+                  title=f"t = {style.time_text(time, self.options.time_unit)}")
+        panel.grid(False)
+        if self.signed and not self.in_space:
+            panel.set_facecolor("#e4e4e4") # zero is white
+        if self.in_space:
             panel.set_axis_off()
+            draw_triad(panel, self.axes_of_view, low, high)
         else:
             panel.set(xlabel="x [m]", ylabel="y [m]")
             panel.label_outer()
-    figure.colorbar(drawn, ax=axes, label=style.label(field, style.field_unit(field)),
-                    shrink=0.8, aspect=30, extend="both")
-    figure.suptitle(run.name)
-    return figure, field
+
+    def add_legend(self, figure, axes, drawn, unit):
+        """A colour bar with the unit, or the names of the bodies."""
+        if self.field == "body":
+            names = self.run.scene.names("Bodies") or ["0"]
+            handles = [Patch(color=style.colour(i, len(names)), label=name)
+                       for i, name in enumerate(names)]
+            last = np.atleast_1d(axes).flat[-1] if np.ndim(axes) < 2 else axes[0, -1]
+            last.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1))
+            return
+        effective = self.run.scene.is_saturated()
+        figure.colorbar(drawn, ax=axes, label=style.label(style.stress_name(self.field, effective),
+                                                          unit),
+                        shrink=0.8, aspect=30, extend="both")
+
+    def figure(self):
+        """Panels of the chosen times; None if no points were written."""
+        if not self.series:
+            return None
+        entries = choose(self.series, self.options.times, self.options.snapshots)
+        states, values, fields = self.load(entries)
+        low, high = self.limits(states)
+        rows, columns, size = layout(*(high - low), len(states))
+        figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False)
+        scaling, drawn = self.scaling(values), None
+        for panel in axes.flat[len(states):]:
+            panel.set_visible(False)
+        for panel, (time, _), *rest in zip(axes.flat, entries, states, values, fields):
+            drawn = self.draw(panel, *rest, scaling)
+            self.finish_panel(panel, time, low, high)
+        self.add_legend(figure, axes, drawn, scaling[1])
+        figure.suptitle(self.run.title())
+        return figure

@@ -1,169 +1,69 @@
 #!/usr/bin/env python3
-"""Pictures of kedge's runs: energies and their error, momenta, the solver's
-work, probes, and the body at chosen times coloured by a field; of element tests
-of soil the curves of stress and strain."""
+"""Pictures of kedge's runs: energies and their error, momenta, reactions, loads over
+displacements, the solver's work, probes, and the body at chosen times coloured by a field;
+of element tests of soil the curves of stress and strain."""
 import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
 import style
-from body_picture import draw_body
+from body_picture import BodyPicture
+from film import write_film
+from history_picture import Histories
 from run_reader import NoRun, Run, name_apart
 from soil_picture import draw_element_tests, is_element_test
 from vtu_reader import BadFile
 
 plt = style.plt
 
-ENERGIES = ["kinetic_energy", "strain_energy", "hardening_energy", "plastic_dissipation",
-            "stabilisation_energy", "external_work", "total_energy"]
-PROBE_QUANTITIES = ["displacement", "velocity", "cauchy_stress", "pressure"]
+EXAMPLES = """examples
+  kedge plot output/quickstart
+  kedge plot output/a output/b -o comparison          several runs in one figure
+  kedge plot output/quickstart -f pressure -t 0 0.5 1
+  kedge plot output/strip_footing -f cauchy_stress_yy --range -100 0 --stress-unit kPa
+  kedge plot output/run --curve probe.tip.displacement_y history.reaction_base_y
+  kedge plot output/quickstart --film gif             an animation"""
 
 
 def arguments():
     """The command line, parsed."""
-    parser = argparse.ArgumentParser(prog="kedge plot", description=__doc__)
+    parser = argparse.ArgumentParser(prog="kedge plot", description=__doc__, epilog=EXAMPLES,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of a run")
     parser.add_argument("-o", "--output", type=Path, metavar="OUT",
                         help="folder for the pictures (default: DIR/pictures of the first DIR)")
     parser.add_argument("-f", "--field", action="append", metavar="NAME",
                         help="what the body is coloured by, e.g. pressure, cauchy_stress_yy, "
-                             "velocity; repeatable")
+                             "velocity, body; repeatable")
     parser.add_argument("-t", "--times", type=float, nargs="+", metavar="T",
                         help="simulated times at which the body is shown [s]")
     parser.add_argument("-n", "--snapshots", type=int, default=6, metavar="N",
                         help="without --times: number of evenly spread times (default: 6)")
+    parser.add_argument("--points", action="store_true",
+                        help="each material point in its own colour, instead of the mean at the "
+                             "grid's nodes")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
+                        help="of the colours, in the unit that the bar shows")
+    parser.add_argument("--view", type=float, nargs=2, default=(-60, 25),
+                        metavar=("AZIMUTH", "HEIGHT"),
+                        help="degrees from which a body in space is seen (default: -60 25)")
+    parser.add_argument("--curve", nargs=2, action="append", metavar=("ACROSS", "UP"),
+                        help="a figure of one column over another, e.g. "
+                             "probe.tip.displacement_y history.reaction_base_y; repeatable")
+    parser.add_argument("--film", choices=("gif", "mp4"), help="an animation of all output times")
+    parser.add_argument("--log-time", action="store_true", help="logarithmic axis of time")
+    parser.add_argument("--time-unit", choices=("auto", *style.SECONDS), default="auto",
+                        help="d: days, a: years")
+    parser.add_argument("--stress-unit", choices=("auto", "Pa", "kPa", "MPa", "GPa"),
+                        default="auto")
+    parser.add_argument("--only", choices=("histories", "body"), help="one kind of picture")
     parser.add_argument("--formats", default="png,svg", help="default: png,svg")
     arg = parser.parse_intermixed_args()
     if arg.snapshots < 1:
         parser.error("--snapshots must be at least 1")
+    if arg.range and not arg.range[0] < arg.range[1]:
+        parser.error("--range needs LOW < HIGH")
     return arg
-
-
-def titled(runs, quantity, run_index):
-    """What the legend says: the quantity, and the run if there are several."""
-    return quantity if len(runs) == 1 else f"{quantity}, {runs[run_index].name}"
-
-
-def thin(values):
-    """Markers for short histories only."""
-    return {"marker": "o", "markersize": 3} if len(values) <= 40 else {}
-
-
-def legend(panel):
-    """The legend beside the title, where it hides no line; below it if it is long."""
-    handles, _ = panel.get_legend_handles_labels()
-    if len(handles) <= 6:
-        panel.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=3, borderaxespad=0)
-    else:
-        panel.legend(loc="upper left", bbox_to_anchor=(1, 1))
-
-
-def draw_energies(runs):
-    """Energies above, the error of the books below."""
-    figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(8, 6.5),
-                                          height_ratios=(1.7, 1))
-    for index, run in enumerate(runs):
-        time = run.history["time"]
-        shown = ENERGIES if len(runs) == 1 else ["kinetic_energy", "strain_energy", "total_energy"]
-        for name in shown:
-            if name not in run.history or (name not in ("total_energy",)
-                                           and not np.any(run.history[name])):
-                continue
-            total = name == "total_energy"
-            upper.plot(time, run.history[name], style.line_style(index),
-                       color="black" if total else style.COLOURS[shown.index(name)],
-                       linewidth=1.8 if total else 1.3,
-                       label=titled(runs, style.label(name), index), **thin(time))
-        error = np.abs(run.history["energy_error"]) / run.energy_scale()
-        lower.semilogy(time, np.where(error > 0, error, np.nan), color=style.COLOURS[index % 7],
-                       label=run.name, **thin(time))
-    unit = style.book_unit("energy", runs[0].dimension())
-    upper.set(ylabel=f"Energy [{unit}]", title="Energies")
-    legend(upper)
-    lower.set(xlabel="Time [s]", ylabel="|error| / largest energy",
-              title="Error of the energy books")
-    if len(runs) > 1:
-        legend(lower)
-    return figure
-
-
-def draw_momenta(runs):
-    """Linear momentum above, angular momentum about the origin below."""
-    figure, panels = plt.subplots(2, 1, sharex=True, figsize=(8, 6))
-    for panel, kind in zip(panels, ("linear_momentum", "angular_momentum")):
-        for index, run in enumerate(runs):
-            for axis, colour in zip("xyz", style.COLOURS):
-                values = run.history.get(f"{kind}_{axis}")
-                if values is not None:
-                    panel.plot(run.history["time"], values, style.line_style(index), color=colour,
-                               label=titled(runs, axis, index), **thin(values))
-        unit = style.book_unit(kind, runs[0].dimension())
-        panel.set(title=style.label(kind), ylabel=f"[{unit}]")
-        legend(panel)
-    panels[-1].set_xlabel("Time [s]")
-    return figure
-
-
-def draw_solver(runs):
-    """Newton's and the linear solver's iterations, the time step."""
-    names = [name for name in ("newton_iterations", "newton_residual", "linear_iterations",
-                               "time_step")
-             if any(np.any(run.history.get(name, 0)) for run in runs)]
-    figure, panels = plt.subplots(len(names), 1, sharex=True, squeeze=False,
-                                  figsize=(8, 2.3 * len(names) + 0.5))
-    for panel, name in zip(panels[:, 0], names):
-        for index, run in enumerate(runs):
-            if name in run.history:
-                panel.step(run.history["time"], run.history[name], where="pre",
-                           color=style.COLOURS[index % 7], linewidth=1.1, label=run.name)
-        counts = name.endswith("iterations")
-        panel.set(title=style.label(name, style.field_unit(name)) + (" per step" if counts else ""))
-        if counts:
-            panel.set_ylim(bottom=0)
-            panel.yaxis.get_major_locator().set_params(integer=True)
-        if name == "newton_residual":
-            panel.set_yscale("log")
-    if len(runs) > 1:
-        legend(panels[0, 0])
-    panels[-1, 0].set_xlabel("Time [s]")
-    return figure
-
-
-def probe_columns(runs, quantity):
-    """The columns NAME.quantity.. of all probes that are not zero all the time."""
-    found = {}
-    for run in runs:
-        for column, values in run.probes.items():
-            probe, _, rest = column.rpartition(".")
-            if (probe and rest.startswith(quantity) and np.any(values)
-                    and np.any(np.isfinite(values))):
-                found[column] = None
-    return list(found)
-
-
-def draw_probes(runs):
-    """One panel for each quantity; None if no probe moved or was stressed."""
-    wanted = {quantity: probe_columns(runs, quantity) for quantity in PROBE_QUANTITIES}
-    wanted = {quantity: columns for quantity, columns in wanted.items() if columns}
-    if not wanted:
-        return None
-    figure, panels = plt.subplots(len(wanted), 1, sharex=True, squeeze=False,
-                                  figsize=(8, 2.6 * len(wanted) + 0.5))
-    for panel, (quantity, columns) in zip(panels[:, 0], wanted.items()):
-        for number, column in enumerate(columns):
-            for index, run in enumerate(runs):
-                if column in run.probes:
-                    probe, _, rest = column.rpartition(".")
-                    what = f"{probe} {rest[len(quantity):].strip('_')}".strip()
-                    panel.plot(run.probes["time"], run.probes[column], style.line_style(index),
-                               color=style.COLOURS[number % 7],
-                               label=titled(runs, what, index), **thin(run.probes["time"]))
-        panel.set(title=style.label(quantity), ylabel=f"[{style.field_unit(quantity)}]")
-        legend(panel)
-    panels[-1, 0].set_xlabel("Time [s]")
-    return figure
 
 
 def save(figure, output, name, formats):
@@ -175,6 +75,40 @@ def save(figure, output, name, formats):
     plt.close(figure)
 
 
+def draw_histories(arg, runs, output):
+    """All pictures of tables that the runs have data for."""
+    histories = Histories(runs, arg)
+    for number, (across, up) in enumerate(arg.curve or []):
+        name = "curve" if number == 0 else f"curve-{number + 1}"
+        save(histories.curve(across, up), output, name, arg.formats)
+    for name, draw in (("energies", histories.energies), ("momenta", histories.momenta),
+                       ("reactions", histories.reactions),
+                       ("load-displacement", histories.load_displacement),
+                       ("solver", histories.solver), ("probes", histories.probes)):
+        figure = draw()
+        if figure is not None:
+            save(figure, output, name, arg.formats)
+
+
+def draw_bodies(arg, runs, output):
+    """The body of each run in each field."""
+    for run in runs:
+        if not run.points_file.exists():
+            print(f"{run.folder} has no points.pvd: no picture of the body (Output/Formats = vtu, "
+                  "Output/Points interval)", file=sys.stderr)
+            continue
+        arg.time_unit = style.time_unit(run.history["time"][-1], arg.time_unit)
+        for field in arg.field or [None]:
+            picture = BodyPicture(run, field, arg)
+            which = "" if len(runs) == 1 else "-" + run.name.replace("/", "-")
+            name = f"body-{picture.field}{which}"
+            figure = picture.figure()
+            if figure is not None:
+                save(figure, output, name, arg.formats)
+                if arg.film:
+                    print(write_film(picture, output / f"{name}.{arg.film}"))
+
+
 def draw_all(arg, runs, output):
     """All pictures that the runs have data for."""
     if all(map(is_element_test, runs)):
@@ -184,20 +118,10 @@ def draw_all(arg, runs, output):
         if "energy_error" not in run.history:
             raise NoRun(f"{run.folder} holds a single material point; of these, only element "
                         "tests of soil are drawn, and not together with other runs")
-    for name, draw in (("energies", draw_energies), ("momenta", draw_momenta),
-                       ("solver", draw_solver), ("probes", draw_probes)):
-        figure = draw(runs)
-        if figure is not None:
-            save(figure, output, name, arg.formats)
-    for run in runs:
-        for field in arg.field or [None]:
-            drawn = draw_body(run, field, arg.times, arg.snapshots)
-            if drawn is None:
-                print(f"{run.folder} has no points.pvd: no picture of the body", file=sys.stderr)
-                break
-            figure, shown = drawn
-            which = "" if len(runs) == 1 else "-" + run.name.replace("/", "-")
-            save(figure, output, f"body-{shown}{which}", arg.formats)
+    if arg.only != "body":
+        draw_histories(arg, runs, output)
+    if arg.only != "histories":
+        draw_bodies(arg, runs, output)
 
 
 def main():

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from scene_reader import SceneFile
+
 
 class NoRun(Exception):
     """A folder that holds no run; says what is missing."""
@@ -36,15 +38,30 @@ class Run:
             raise NoRun(f"{folder}/history.csv has no rows yet")
         self.probes = self.read_probes()
         self.points_file = self.folder / "points.pvd"
+        self.scene = SceneFile(self.folder / "parameters.prm")
 
     def read_probes(self):
         """probes.csv; without the file, nothing."""
         path = self.folder / "probes.csv"
         return read_table(path) if path.exists() else {}
 
+    def title(self):
+        """The run's name, and what its scene shows."""
+        title = self.scene.title()
+        return f"{self.name}: {title}" if title else self.name
+
     def dimension(self):
         """2 or 3: in 2D the angular momentum has its z component only."""
         return 3 if "angular_momentum_x" in self.history else 2
+
+    def reactions(self):
+        """The columns of supports' forces: name of the condition to its columns by direction."""
+        found = {}
+        for column in self.history:
+            if column.startswith("reaction_"):
+                name, _, direction = column[len("reaction_"):].rpartition("_")
+                found.setdefault(name, {})[direction] = column
+        return found
 
     def energy_scale(self):
         """The largest energy in the books [J], 1 if all are zero: what errors are measured against."""

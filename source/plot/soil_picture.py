@@ -19,6 +19,15 @@ def is_element_test(run):
     return "deviator_stress" in run.history and "total_energy" not in run.history
 
 
+def keep_constants_flat(panel):
+    """What differs by rounding only is shown as a constant."""
+    panel.ticklabel_format(axis="y", useOffset=False)
+    values = np.concatenate([line.get_ydata() for line in panel.lines] or [np.zeros(1)])
+    middle = np.mean(values)
+    if np.ptp(values) < 1e-6 * abs(middle):
+        panel.set_ylim(middle - 0.1 * abs(middle), middle + 0.1 * abs(middle))
+
+
 def draw_element_tests(runs):
     """q over strain, q over p', e over p' (logarithmic), pore pressure or volume strain."""
     undrained = any(np.any(run.history["pore_pressure"]) for run in runs)
@@ -31,6 +40,7 @@ def draw_element_tests(runs):
                 panel.plot(across[2] * run.history[across[0]], up[2] * run.history[up[0]],
                            color=style.COLOURS[index % 7], label=run.name)
         panel.set(xlabel=across[1], ylabel=up[1])
+        keep_constants_flat(panel)
         if up is VOID_RATIO and any(np.any(run.history["pressure"] > 0) for run in runs):
             panel.set_xscale("log")
     if len(runs) > 1:

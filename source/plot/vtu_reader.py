@@ -68,6 +68,14 @@ class Points:
                     return self.fields[field][:, column]
         raise KeyError(name)
 
+    def subset(self, mask):
+        """Those of the points for which `mask` is true."""
+        result = Points()
+        result.position = self.position[mask]
+        result.fields = {name: values[mask] for name, values in self.fields.items()}
+        result.components = self.components
+        return result
+
     def append(self, other):
         """Adds the points of another piece."""
         if not self.fields:
