@@ -8,6 +8,13 @@ function(kedge_set_up_target target)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${target} PRIVATE -O3 -g1 -fno-math-errno)
   endif()
+  if(KEDGE_SANITIZE)
+    # -O1: as fast as the watching allows; its guesses about unset variables are no errors
+    set(watch -fsanitize=address,undefined -fno-sanitize-recover=undefined)
+    target_compile_options(${target} PRIVATE ${watch} -O1 -fno-omit-frame-pointer
+      -Wno-error=maybe-uninitialized)
+    target_link_options(${target} PRIVATE ${watch})
+  endif()
   if(KEDGE_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)
   endif()

@@ -3,6 +3,7 @@
 #include <kedge/base/single_process.h>
 #include <kedge/io/versions.h>
 #include <kedge/scene/command_line.h>
+#include <kedge/scene/idle_settings.h>
 #include <kedge/scene/read_scene.h>
 #include <kedge/simulation/drive_point.h>
 #include <kedge/simulation/run.h>
@@ -28,6 +29,16 @@ namespace kedge
 {
   namespace
   {
+    /** Of the processes that mpirun starts only one speaks; known before MPI is. */
+    bool
+    is_first_process()
+    {
+      for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+        if (const char *rank = std::getenv(name))
+          return std::strcmp(rank, "0") == 0;
+      return true;
+    }
+
     std::filesystem::path
     output_folder(const CommandLine &command, const std::string &scene_name)
     {
@@ -73,12 +84,17 @@ namespace kedge
     {
       const Scene<dim> scene = read_scene<dim>(file);
       check_size(scene);
+      const std::vector<std::string> notes = idle_settings(file, scene);
       if (command.validate)
         {
           validate_scene(scene, std::cout, MPI_COMM_WORLD);
+          if (is_first_process())
+            for (const std::string &note : notes)
+              std::cout << "note:             " << note << "\n";
           return ExitCode::finished;
         }
       RunOptions options;
+      options.notes          = notes;
       options.output         = output_folder(command, scene.name);
       options.resume         = command.resume;
       options.strict         = command.strict;
@@ -102,7 +118,7 @@ namespace kedge
       else if (command.version)
         print_versions();
       else
-        print_parameters(std::cout);
+        print_parameters(std::cout, command.scene);
       return ExitCode::finished;
     }
 
@@ -116,11 +132,19 @@ namespace kedge
         file.set(setting);
       if (command.drive || is_path_file(file))
         {
-          if (command.resume || command.validate)
-            throw UserError(command.scene + " is a path of a single material point; neither "
-                                            "--resume nor --validate goes with it.");
+          if (command.resume)
+            throw UserError(command.scene + " is a path of a single material point; --resume does "
+                                            "not go with it.");
           const PathScene scene = read_path_scene(file);
           check_size(scene);
+          if (command.validate)
+            {
+              if (is_first_process())
+                std::cout << "path:             " << scene.path.n_steps
+                          << " steps of one material point of '" << scene.material.name
+                          << "' to t = " << scene.path.end << " s" << std::endl;
+              return ExitCode::finished;
+            }
           return drive_point(scene,
                              output_folder(command, scene.name),
                              command.strict,
@@ -138,16 +162,6 @@ namespace kedge
     give_way_while_waiting()
     {
       setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
-    }
-
-    /** Of the processes that mpirun starts only one speaks; known before MPI is. */
-    bool
-    is_first_process()
-    {
-      for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
-        if (const char *rank = std::getenv(name))
-          return std::strcmp(rank, "0") == 0;
-      return true;
     }
 
     /** A message of at most some lines of a terminal: values in it may be of any length. */

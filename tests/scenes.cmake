@@ -394,10 +394,14 @@ kedge_add_test(first_hour LABELS scene refusal
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/first_hour)
 
 # --- Random and damaged scenes: two minutes here, longer by hand -----------------
+set(fuzz_options --cases 160 --seconds 120)
+if(KEDGE_SANITIZE)
+  list(APPEND fuzz_options --no-memory-limit)
+endif()
 kedge_add_test(fuzz LABELS scene refusal TIMEOUT 240
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/fuzz.py
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR}/prm ${CMAKE_CURRENT_BINARY_DIR}/fuzz
-    --cases 160 --seconds 120)
+    ${fuzz_options})
 
 # --- The short part of the stability bench --------------------------------------
 # Every case must finish or say why it stopped, and keep its books of energy to

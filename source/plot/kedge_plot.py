@@ -133,6 +133,8 @@ def main():
         output.mkdir(parents=True, exist_ok=True)
         style.set_style()
         draw_all(arg, runs, output)
+    except BrokenPipeError: # whoever read the names of the pictures has left
+        sys.stderr.close()
     except (NoRun, BadFile, OSError, ValueError) as error:
         sys.exit(f"kedge plot: {error}")
 

@@ -88,7 +88,8 @@ namespace kedge
         {"--print-parameters",
          "",
          "",
-         "print every parameter with unit, default and allowed values",
+         "print every parameter with unit, default and allowed values; with the name of a section "
+         "after it that one alone, with json all for scripts",
          raise(&CommandLine::print_parameters)},
         {"--version",
          "",

@@ -395,6 +395,19 @@ namespace kedge
 
 
 
+  bool
+  ParameterReader::differs_from_default(const Path &section, const std::string &name) const
+  {
+    for (const SectionDeclaration &candidate : declarations)
+      if (candidate.name == (section.empty() ? "" : section[0]))
+        for (const EntryDeclaration &entry : candidate.entries)
+          if (entry.name == name)
+            return text(section, name) != entry.default_value.value_or("");
+    return false;
+  }
+
+
+
   std::string
   ParameterReader::place(const Path &section, const std::string &name) const
   {

@@ -1,3 +1,4 @@
+#include <kedge/base/expression.h>
 #include <kedge/base/user_errors.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/cross_checks.h>
@@ -351,6 +352,14 @@ namespace kedge
       errors.attempt([&]() {
         check_initial_stress(reader, scene);
       });
+      if (!scene.pore_fluid)
+        for (const BodyParameters<dim> &body : scene.bodies)
+          errors.attempt([&]() {
+            const Expression pressure(body.initial_pore_pressure, {"x", "y", "z"}, scene.constants);
+            if (!(pressure.is_constant() && pressure.value() == 0.))
+              throw SectionReader(reader, {"Bodies", body.name})
+                .error("Initial pore pressure", "The body is dry: there is no Pore fluid/Density.");
+          });
       errors.attempt([&]() {
         read_surfaces(reader, scene);
       });

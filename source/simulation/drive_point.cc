@@ -1,5 +1,6 @@
 #include <kedge/io/checks.h>
 #include <kedge/io/collective.h>
+#include <kedge/io/command_name.h>
 #include <kedge/io/files.h>
 #include <kedge/io/summary.h>
 #include <kedge/io/versions.h>
@@ -279,7 +280,8 @@ namespace kedge
     summarise(scene, end, results, folder, wall_start);
     folder.log() << "kedge: finished after " << scene.path.n_steps << " steps\n"
                  << "kedge: results in " << folder.path().string()
-                 << "; to draw them: ./kedge plot " << folder.path().string() << std::endl;
+                 << "; to draw them: " << command_name() << " plot " << folder.path().string()
+                 << std::endl;
     folder.check_log();
     for (const CheckResult &check : results)
       if (!check.pass && strict)

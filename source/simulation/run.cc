@@ -4,6 +4,7 @@
 
 #include <kedge/io/checks.h>
 #include <kedge/io/collective.h>
+#include <kedge/io/command_name.h>
 #include <kedge/io/files.h>
 #include <kedge/io/versions.h>
 
@@ -110,6 +111,8 @@ namespace kedge
                  << dealii::Utilities::MPI::n_mpi_processes(communicator) << " process(es)"
                  << std::endl;
     describe_attachments(model, step, folder.log());
+    for (const std::string &note : options.notes)
+      folder.log() << "  note: " << note << std::endl;
     write_points(true);
     if (!last_points_step)
       write_grid();
@@ -361,8 +364,8 @@ namespace kedge
   Run<dim>::say_where_results_are(const bool finished)
   {
     const std::string name = folder.path().string();
-    folder.log() << "kedge: results in " << name << "; to draw them: ./kedge plot " << name
-                 << std::endl;
+    folder.log() << "kedge: results in " << name << "; to draw them: " << command_name() << " plot "
+                 << name << std::endl;
     if (!finished && state_is_good && !options.resume_command.empty())
       folder.log() << "kedge: to go on: " << options.resume_command << std::endl;
     folder.check_log();

@@ -5,7 +5,7 @@
 Half of the cases are small random scenes, which run; a quarter are mutations of such,
 which run too; a quarter are mutations of the scenes in the folder SCENES, which are only
 validated. Whatever the scene, kedge must end with the exit code 0, 1 or 2 (3 if it is
-told to stop because it takes long), say in plain words what is wrong, and write finite
+told to stop because it takes long; kept in OUTPUT/slow), say in plain words what is wrong, and write finite
 numbers. A scene that breaks this is kept in OUTPUT/failures.
 
 The same seed gives the same scenes. By hand, for as long as you like:
@@ -136,6 +136,10 @@ def main():
         code, errors, stopped = run(arg, scene, validate, folder)
         codes[code] = codes.get(code, 0) + 1
         n_stopped += stopped
+        if stopped:
+            keep = arg.output / "slow" / f"{arg.seed}-{number}.prm"
+            keep.parent.mkdir(exist_ok=True)
+            shutil.copy(scene, keep)
         found = list(faults(code, errors, stopped, folder))
         if found:
             keep = arg.output / "failures" / f"{arg.seed}-{number}.prm"

@@ -73,6 +73,7 @@ TEST(SceneCommandLine, SomeOptionsNeedNoScene)
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(parse({"--version"}).version);
   EXPECT_TRUE(parse({"--print-parameters"}).print_parameters);
+  EXPECT_EQ(parse({"--print-parameters", "Time"}).scene, "Time");
   EXPECT_NE(message_of({}).find("kedge SCENE.prm"), std::string::npos);
   EXPECT_NE(message_of({"--strict"}).find("kedge SCENE.prm"), std::string::npos);
 }

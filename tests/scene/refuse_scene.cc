@@ -187,6 +187,47 @@ TEST(SceneRead, GhostFactorsOfPressuresNeedAPoreFluid)
                  {std::string("Stabilisation/") + factor + " = 1e-3", "dry", "Pore fluid/Density"});
 }
 
+TEST(SceneRead, SettingsWithoutEffectAreSaid)
+{
+  const auto lines = [](const std::vector<std::string> &settings) {
+    ParameterFile file = parse(full_scene);
+    for (const std::string &setting : settings)
+      file.set(setting);
+    std::string text;
+    for (const std::string &line : idle_settings(file, read_scene<2>(file)))
+      text += line + "\n";
+    return text;
+  };
+  const std::string plain = lines({});
+  EXPECT_EQ(plain.find("Spectral radius"), std::string::npos) << plain; // its scheme is chosen
+  expect_parts(lines({"Time/Scheme = quasi-static", "Bodies/beam/Initial velocity = 1; 0"}),
+               {"Bodies/beam/Initial velocity = 1; 0 has no effect without inertia"});
+  expect_parts(lines({"Time/Newmark beta = 0.3"}),
+               {"Time/Newmark beta = 0.3 has no effect but with Time/Scheme = newmark"});
+  expect_parts(lines({"Stabilisation/Ghost mass factor = 7", "Stabilisation/Method = none"}),
+               {"Ghost mass factor = 7 has no effect but with Stabilisation/Method = ghost"});
+  expect_parts(lines({"Materials/spare/Density = 1",
+                      "Materials/spare/Young's modulus = 1",
+                      "Materials/spare/Poisson's ratio = 0"}),
+               {"Materials/spare is the Material of no body"});
+  expect_parts(message_of(full_scene, {"Bodies/beam/Initial pore pressure = 1e3"}),
+               {"Bodies/beam/Initial pore pressure = 1e3", "The body is dry"});
+}
+
+TEST(ScenePrintParameters, OneSectionAloneOrJson)
+{
+  std::ostringstream time, json;
+  print_parameters(time, "Time");
+  EXPECT_EQ(time.str().find("subsection Grid"), std::string::npos);
+  expect_parts(time.str(), {"subsection Time\n", "set Scheme = clc-midpoint"});
+  print_parameters(json, "json");
+  expect_parts(json.str(),
+               {"{\"sections\": [",
+                "{\"name\": \"Density\", \"required\": true, \"default\": \"\"",
+                "\"documentation\": \"Mass per volume of the undeformed body [kg/m^3].\"}"});
+  EXPECT_THROW(print_parameters(json, "Tme"), UserError);
+}
+
 TEST(ScenePrintParameters, ShowsEveryEntryWithUnitDefaultAndAllowedValues)
 {
   std::ostringstream out;

@@ -3,6 +3,7 @@
 
 #include <kedge/base/exceptions.h>
 #include <kedge/base/expression.h>
+#include <kedge/scene/idle_settings.h>
 #include <kedge/scene/read_scene.h>
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@ namespace kedge
   struct CommandLine
   {
     std::vector<std::string>    arguments; ///< as they are, the program's name first
-    std::string                 scene;     ///< path; "-" is standard input
+    std::string                 scene;     ///< path; "-" is standard input; see print_parameters
     std::string                 output;    ///< -o, --output; empty: output/<scene name>
     std::vector<std::string>    settings;  ///< -s, --set, each "Section/Name = value"
     std::optional<unsigned int> n_threads; ///< --threads, at least 1
@@ -19,7 +19,7 @@ namespace kedge
     bool                        resume           = false;
     bool                        validate         = false;
     bool                        strict           = false;
-    bool                        print_parameters = false;
+    bool                        print_parameters = false; ///< of the section `scene`, if given
     bool                        version          = false;
     bool                        help             = false;
   };

@@ -48,6 +48,10 @@ namespace kedge
     std::string
     text(const std::vector<std::string> &section, const std::string &name) const;
 
+    /** Whether the value of an entry is another one than its default. */
+    bool
+    differs_from_default(const std::vector<std::string> &section, const std::string &name) const;
+
     /** Where an entry was set; where its section was opened if it was not. */
     std::string
     place(const std::vector<std::string> &section, const std::string &name) const;

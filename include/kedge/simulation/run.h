@@ -22,10 +22,11 @@ namespace kedge
 {
   struct RunOptions
   {
-    std::filesystem::path output;
-    bool                  resume = false;
-    bool                  strict = false; ///< a failed check makes the exit code 2
-    std::string           resume_command; ///< with which the user goes on; for the log
+    std::filesystem::path    output;
+    bool                     resume = false;
+    bool                     strict = false; ///< a failed check makes the exit code 2
+    std::vector<std::string> notes;          ///< on the scene, for the log
+    std::string              resume_command; ///< with which the user goes on; for the log
   };
 
   /** A whole run of a scene: the time loop with its books, output and checkpoints. */
