@@ -281,6 +281,10 @@ kedge_add_restart_test(scene.restart.krylov_blocks benchmarks/saturated/strip.pr
   SET "Constants/steps = 24" "Output/Checkpoint every steps = 4"
     "Linear solver/Method = krylov-blocks")
 
+kedge_add_test(scene.change_ranks LABELS scene restart RANKS 2
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/change_ranks.py
+    $<TARGET_FILE:kedge> ${KEDGE_MPIRUN} ${PROJECT_SOURCE_DIR}
+    ${CMAKE_CURRENT_BINARY_DIR}/scenes/change_ranks 1e-9)
 kedge_add_test(scene.stop_and_resume LABELS scene restart
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/stop_and_resume.py
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/stop_and_resume)

@@ -84,8 +84,7 @@ namespace kedge
     check_manifest(const CheckpointManifest &manifest,
                    const fs::path           &state,
                    const unsigned int        dim,
-                   const unsigned int        n_state_values,
-                   const unsigned int        n_ranks)
+                   const unsigned int        n_state_values)
     {
       const std::string begin = "The checkpoint '" + state.string() + "' ";
       if (manifest.dim != dim)
@@ -96,11 +95,6 @@ namespace kedge
         throw UserError(begin + "was written by another version of kedge, whose material points " +
                         "hold other values. Resume with that version, or start afresh without " +
                         "--resume.");
-      if (manifest.files.size() != n_ranks)
-        throw UserError(begin + "was written by " + std::to_string(manifest.files.size()) +
-                        " MPI ranks, this run has " + std::to_string(n_ranks) +
-                        ". Resume it with 'mpirun -np " + std::to_string(manifest.files.size()) +
-                        "'.");
     }
 
     /** Throws UserError if the scene has changed since. */
@@ -124,6 +118,29 @@ namespace kedge
       return crc32_of(content) == file.crc ? "" : "has a wrong checksum";
     }
 
+    /** Reads the file of a rank into @p data. Returns the damage; empty if there is none. */
+    template <int dim>
+    std::string
+    read_rank(const fs::path           &state,
+              const CheckpointManifest &manifest,
+              const unsigned int        of_rank,
+              CheckpointData<dim>      &data)
+    {
+      try
+        {
+          const std::string content = read_file(state / rank_file(of_rank));
+          const std::string damage  = damage_of(content, manifest.files[of_rank]);
+          if (!damage.empty())
+            return rank_file(of_rank) + ' ' + damage;
+          data = unpack_checkpoint<dim>(content);
+        }
+      catch (const std::runtime_error &error)
+        {
+          return error.what();
+        }
+      return "";
+    }
+
     /** The first text of all ranks that is not empty. Collective. */
     std::string
     first_text(const std::string &text, const MPI_Comm communicator)
@@ -135,8 +152,11 @@ namespace kedge
       return first == n_ranks ? "" : dealii::Utilities::MPI::broadcast(communicator, text, first);
     }
 
-    /** Reads this rank's part into @p data. Returns the damage, throws UserError for a foreign
-     * state. */
+    /**
+     * Reads this rank's part into @p data. Of a state that was written by another number
+     * of ranks each takes every n-th file's points. Returns the damage, throws UserError for a
+     * foreign state.
+     */
     template <int dim>
     std::string
     read_state(const fs::path      &state,
@@ -155,22 +175,28 @@ namespace kedge
         {
           return error.what();
         }
-      check_manifest(manifest, state, dim, n_state_values<dim>, n_ranks);
-      try
+      check_manifest(manifest, state, dim, n_state_values<dim>);
+      const auto n_files = static_cast<unsigned int>(manifest.files.size());
+      if (n_files == 0)
+        return "it has no files";
+      // what is not of the points is the same in all files, but for positions in tables: rank 0's
+      std::string damage = read_rank(state, manifest, n_files == n_ranks ? rank : 0, data);
+      if (n_files != n_ranks)
         {
-          const std::string content = read_file(state / rank_file(rank));
-          const std::string damage  = damage_of(content, manifest.files[rank]);
-          if (!damage.empty())
-            return rank_file(rank) + ' ' + damage;
-          data = unpack_checkpoint<dim>(content);
+          if (rank > 0)
+            data.points.clear();
+          for (unsigned int file = rank > 0 ? rank : n_ranks; file < n_files && damage.empty();
+               file += n_ranks)
+            {
+              CheckpointData<dim> more;
+              damage = read_rank(state, manifest, file, more);
+              data.points.insert(data.points.end(), more.points.begin(), more.points.end());
+            }
         }
-      catch (const std::runtime_error &error)
-        {
-          return error.what();
-        }
-      check_settings(data.settings, settings, state);
-      data.n_ranks = n_ranks;
-      return "";
+      if (damage.empty())
+        check_settings(data.settings, settings, state);
+      data.n_ranks = n_files;
+      return damage;
     }
   } // namespace
 

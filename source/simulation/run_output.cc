@@ -262,7 +262,10 @@ namespace kedge
       }
     const auto                     &weights = data.arrays.at("covered_weights");
     const std::vector<unsigned int> points_per_cell(weights.begin(), weights.end());
-    model.points.restore(data.points, covered, points_per_cell);
+    if (data.n_ranks == dealii::Utilities::MPI::n_mpi_processes(communicator))
+      model.points.restore(data.points, covered, points_per_cell);
+    else
+      model.points.replace(data.points); // shares them out anew
     step.points_changed();
 
     clock.restore({data.scalars.at("time"),
