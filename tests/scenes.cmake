@@ -285,6 +285,10 @@ kedge_add_test(scene.change_ranks LABELS scene restart RANKS 2
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/change_ranks.py
     $<TARGET_FILE:kedge> ${KEDGE_MPIRUN} ${PROJECT_SOURCE_DIR}
     ${CMAKE_CURRENT_BINARY_DIR}/scenes/change_ranks 1e-9)
+kedge_add_test(scene.stop_mpirun LABELS scene restart RANKS 2
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/stop_mpirun.py
+    $<TARGET_FILE:kedge> ${KEDGE_MPIRUN} ${PROJECT_SOURCE_DIR}
+    ${CMAKE_CURRENT_BINARY_DIR}/scenes/stop_mpirun)
 kedge_add_test(scene.stop_and_resume LABELS scene restart
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/stop_and_resume.py
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/stop_and_resume)

@@ -45,6 +45,7 @@ namespace kedge
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, &previous_interrupt);
     sigaction(SIGTERM, &action, &previous_terminate);
+    sigaction(SIGUSR1, &action, &previous_user);
   }
 
 
@@ -53,6 +54,7 @@ namespace kedge
   {
     sigaction(SIGINT, &previous_interrupt, nullptr);
     sigaction(SIGTERM, &previous_terminate, nullptr);
+    sigaction(SIGUSR1, &previous_user, nullptr);
     in_use = false;
   }
 

@@ -185,7 +185,7 @@ namespace kedge
            "  0  finished\n"
            "  1  the scene or an option cannot be used\n"
            "  2  the numerics: the smallest time step was reached; with --strict, a check failed\n"
-           "  3  stopped by SIGINT or SIGTERM, after writing a checkpoint\n"
+           "  3  stopped by SIGINT, SIGTERM or SIGUSR1, after writing a checkpoint\n"
            "  4  an internal error\n";
     return out.str();
   }

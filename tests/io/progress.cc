@@ -67,7 +67,7 @@ TEST(IoSignalsMpi, OneRanksSignalStopsAll)
 {
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   const unsigned int last = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1})
     {
       const StopSignals signals(MPI_COMM_WORLD);
       EXPECT_FALSE(signals.stop_requested());

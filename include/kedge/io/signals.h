@@ -8,8 +8,9 @@
 namespace kedge
 {
   /**
-   * While it lives, SIGINT and SIGTERM only set a flag, so that the time loop
-   * can write a checkpoint and end. Another one, more than a second after the
+   * While it lives, SIGINT, SIGTERM and SIGUSR1 only set a flag, so that the time loop
+   * can write a checkpoint and end. (mpirun hands SIGUSR1 on and waits; at the others it
+   * kills what has not ended a second later.) Another one, more than a second after the
    * first, ends the process at once. One object at a time.
    */
   class StopSignals
@@ -29,6 +30,7 @@ namespace kedge
     MPI_Comm         communicator;
     struct sigaction previous_interrupt;
     struct sigaction previous_terminate;
+    struct sigaction previous_user;
   };
 } // namespace kedge
 
