@@ -152,6 +152,35 @@ def test_pictures_of_the_start():
         demand(float(next(csv.DictReader(file))["time"]) == 0, "probes begin after the start")
 
 
+def test_equilibrium():
+    """The stage says how it goes, and its support's force is that of the first row: the weight."""
+    said = run("stage", *HELD, "-s", "Node conditions/base/Reaction = true", "-s",
+               "Body force/Acceleration = 0; -9.81", "-s", "Equilibrium/Steps = 3", "-s",
+               "Time/Scheme = quasi-static", "-s", "Time/End = 0.2")
+    demand("Equilibrium: step 3 of 3" in said, "no word of the stage")
+    demand("sum of all loads: (0 -9810) N/m" in said, "the weight is not said")
+    for row in history("stage"): # 1 m x 1 m of 1000 kg/m^3; to the tolerance of Newton's method
+        demand(abs(row["reaction_base_y"] - 9810) < 1e-6 * 9810, f"the reaction is {row}")
+
+
+def test_smooth_fields():
+    """A field that is the same at all points is that at all nodes; each cell has its corners."""
+    sys.path.insert(0, str(ROOT / "source/plot"))
+    try:
+        from vtu_reader import read_points
+    except ImportError:
+        return # no numpy
+    run("smooth", "-s", "Output/Grid = true", "-s", "Bodies/block/Initial velocity = 2; -3", "-s",
+        "Time/End = 0.2")
+    for path in sorted((OUTPUT / "smooth/grid").glob("*.vtu")):
+        nodes = read_points(path)
+        velocity = nodes.fields["velocity"]
+        # a mean of equal numbers, but for rounding and the round-off of the motion
+        demand(len(velocity) >= 4 and abs(velocity - [2, -3, 0]).max() < 1e-12,
+               f"{path}: velocities {velocity}")
+        demand("cauchy_stress_yy" in nodes.fields and "body" not in nodes.fields, nodes.names())
+
+
 def test_sizes():
     """What no machine can hold is refused before it is tried, with the figure."""
     for setting, pattern in (

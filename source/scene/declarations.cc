@@ -411,7 +411,11 @@ namespace kedge
             "vtu",
             allow.list_of({"vtu", "hdf5"}).or_empty(),
             "vtu: points.pvd for ParaView. hdf5: HDF5 with XDMF."},
-           {"Grid", "false", allow.truth(), "Whether the grid is written too, as grid.pvd."},
+           {"Grid",
+            "false",
+            allow.truth(),
+            "Whether the cells in use are written too, as grid.pvd, with the Fields as means at "
+            "the nodes: smooth where those of the points speckle."},
            {"Checkpoint every steps",
             "0",
             allow.whole_number(0),

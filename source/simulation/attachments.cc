@@ -112,7 +112,11 @@ namespace kedge
     {
       const std::string unit  = dim == 2 ? ") N/m" : ") N";
       const double      start = model.scene.time.start, end = model.scene.time.end;
-      const auto        first = step.total_load(start), last = step.total_load(end);
+      auto              first = step.total_load(start), last = step.total_load(end);
+      for (auto *sum : {&first, &last}) // internal forces cancel but for round-off
+        for (int d = 0; d < dim; ++d)
+          if (std::abs((*sum)[d]) < 1e-12 * sum->norm())
+            (*sum)[d] = 0.;
       if (first.norm() + last.norm() == 0.)
         return;
       out << "  sum of all loads: (" << first << unit;

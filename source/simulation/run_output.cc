@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/points/attachment_checks.h>
+#include <kedge/simulation/nodal_means.h>
 #include <kedge/simulation/run.h>
 
 namespace kedge
@@ -135,8 +136,12 @@ namespace kedge
       return;
     step.activate();
     GridSnapshot<dim> snapshot;
+    const auto        records = model.points.points().records();
     for (const auto &field : model.fields)
-      add_cells(field->patch, snapshot);
+      {
+        add_cells(field->patch, snapshot);
+        add_nodal_means(field->patch, records, model.scene.output.fields, snapshot);
+      }
     grid_output->write(clock.time(), snapshot);
   }
 
