@@ -55,6 +55,26 @@ def test_text_into_a_closed_pipe():
         demand(done.stderr == "", f"{option} into a closed pipe says {done.stderr}")
 
 
+def test_odd_command_lines():
+    """Whatever stands on the command line: a message and exit code 1, or the text asked for."""
+    lines = [[], ["--"], ["-"], ["-o"], ["--output"], ["--set"], ["--threads", "0"], ["-x"], [""],
+             ["--help=1"], ["--set="], ["--resume"], ["--drive"], ["/"], ["."], ["/dev/null"],
+             ["no such.prm"], ["a.prm", "b.prm"], ["\u00e9.prm"], ["--" + "a" * 10000],
+             ["a" * 10000], [GOOD, "-s", "="], [GOOD, "-s", "a/b/c/d = 1"], [GOOD, "-s", "/ = 1"],
+             [GOOD, "-s", "Time/End"], [GOOD, "-o", ""], [GOOD, "-o", "/proc/nothing"],
+             [GOOD, "--resume", "-o", "/nowhere"], [GOOD, "--drive"], [GOOD, "--drive", "--validate"],
+             ["--print-parameters", "Nothing"], ["--print-parameters", "Time", "Grid"]]
+    for line in lines:
+        done = subprocess.run([KEDGE, *line], stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, check=False, cwd=OUTPUT)
+        demand(done.returncode == 1, f"{line} ends with {done.returncode}")
+        demand(done.stderr.startswith("kedge: ") and len(done.stderr) < 9000,
+               f"{line} says {done.stderr[:200]}")
+    for line in (["--version"], ["-h"], ["--print-parameters", "json"], ["--help", "--version"]):
+        done = subprocess.run([KEDGE, *line], capture_output=True, text=True, check=False)
+        demand(done.returncode == 0 and done.stdout and not done.stderr, f"{line}: {done.stderr}")
+
+
 def test_full_disk():
     """What cannot be printed is an error; the run's files are whole all the same."""
     if not Path("/dev/full").exists():

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Pictures of kedge's runs: energies and their error, momenta, reactions, loads over
 displacements, the solver's work, probes, and the body at chosen times coloured by a field;
-of element tests of soil the curves of stress and strain."""
+of element tests of soil the curves of stress and strain, of other single points the stress over
+time."""
 import argparse
 import sys
 from pathlib import Path
@@ -11,7 +12,7 @@ from body_picture import BodyPicture
 from film import write_film
 from history_picture import Histories
 from run_reader import NoRun, Run, name_apart
-from soil_picture import draw_element_tests, is_element_test
+from soil_picture import draw_element_tests, draw_paths, is_element_test, is_path
 from vtu_reader import BadFile
 
 plt = style.plt
@@ -114,10 +115,13 @@ def draw_all(arg, runs, output):
     if all(map(is_element_test, runs)):
         save(draw_element_tests(runs), output, "element-test", arg.formats)
         return
+    if all(map(is_path, runs)):
+        save(draw_paths(runs), output, "path", arg.formats)
+        return
     for run in runs:
         if "energy_error" not in run.history:
-            raise NoRun(f"{run.folder} holds a single material point; of these, only element "
-                        "tests of soil are drawn, and not together with other runs")
+            raise NoRun(f"{run.folder} holds a single material point, which is not drawn together "
+                        "with runs of bodies")
     if arg.only != "body":
         draw_histories(arg, runs, output)
     if arg.only != "histories":

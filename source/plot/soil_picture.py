@@ -19,6 +19,40 @@ def is_element_test(run):
     return "deviator_stress" in run.history and "total_energy" not in run.history
 
 
+def is_path(run):
+    """Whether a run is a single material point."""
+    return "deformation_gradient_xx" in run.history and "total_energy" not in run.history
+
+
+def draw_paths(runs):
+    """Stresses, mean and von Mises stress, and energies of single points over time."""
+    groups = (("Cauchy stress", [f"cauchy_stress_{c}" for c in ("xx", "yy", "zz", "xy", "xz",
+                                                                "yz")], "Pa"),
+              ("Invariants", ["pressure", "von_mises_stress"], "Pa"),
+              ("Energies per undeformed volume", ["strain_energy", "hardening_energy",
+                                                  "plastic_dissipation"], "J/m³"))
+    figure, panels = plt.subplots(3, 1, sharex=True, figsize=(8, 8))
+    for panel, (title, names, unit) in zip(panels, groups):
+        largest = max(np.max(np.abs(run.history.get(name, 0))) for run in runs for name in names)
+        shown = [name for name in names
+                 if any(np.max(np.abs(run.history.get(name, 0))) > 1e-9 * largest for run in runs)]
+        factor, unit = style.handy(unit, [run.history[name] for run in runs for name in shown
+                                          if name in run.history])
+        for index, run in enumerate(runs):
+            for number, name in enumerate(shown):
+                if name in run.history:
+                    text = style.label(name) + (f", {run.name}" if len(runs) > 1 else "")
+                    panel.plot(run.history["time"], factor * run.history[name],
+                               style.line_style(index), color=style.colour(number, len(shown)),
+                               label=style.wrapped(text))
+        panel.set(title=title, ylabel=f"[{unit}]")
+        style.legend(panel)
+    panels[-1].set_xlabel("Time [s]")
+    if len(runs) == 1:
+        figure.suptitle(runs[0].title())
+    return figure
+
+
 def keep_constants_flat(panel):
     """What differs by rounding only is shown as a constant."""
     panel.ticklabel_format(axis="y", useOffset=False)
