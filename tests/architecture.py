@@ -33,7 +33,8 @@ MAY_INCLUDE["fields"] = {"basis", "geometry", "grid", "points", "materials", "st
 MAY_INCLUDE["equations"] = MAY_INCLUDE["fields"] | {"fields", "solvers", "time_integration"}
 # between points and nodes; the consistent mass must be solved for
 MAY_INCLUDE["transfer"] = MAY_INCLUDE["equations"] | {"equations"}
-MAY_INCLUDE["surfaces"] = MAY_INCLUDE["fields"] | {"fields"}
+# surfaces of bodies, which a term of theirs lets follow
+MAY_INCLUDE["surfaces"] = MAY_INCLUDE["equations"] | {"equations"}
 # terms; they know each other only where one stands on the other
 MAY_INCLUDE["solid"] = MAY_INCLUDE["transfer"] | {"transfer", "surfaces"}
 # the skeleton of a soil is a solid

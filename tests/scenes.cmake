@@ -84,6 +84,19 @@ kedge_add_scene_test(scene.crossing_bodies.linear prm/crossing_bodies.prm
   SET "Bodies/disc/Basis = linear" "Bodies/block/Basis = linear")
 kedge_add_scene_test(scene.crossing_bodies.3d tests/scenes/crossing_bodies_3d.prm
   COMPARE_RANKS 1e-9)
+# contact with a law: energy for steps from half of the CFL step to twenty of them
+kedge_add_scene_test(scene.prisms_collision prm/prisms_collision.prm)
+foreach(cfl 0.5 5 20)
+  kedge_add_scene_test(scene.prisms_collision.cfl_${cfl} prm/prisms_collision.prm
+    SET "Constants/cfl = ${cfl}")
+endforeach()
+kedge_add_scene_test(scene.block_on_incline prm/block_on_incline.prm)
+kedge_add_scene_test(scene.block_on_incline.sticks prm/block_on_incline.prm
+  SET "Constants/mu = 0.6")
+kedge_add_scene_test(scene.block_on_incline.smooth prm/block_on_incline.prm
+  SET "Constants/mu = 0")
+kedge_add_scene_test(scene.contact.ranks prm/prisms_collision.prm RANKS 2
+  EXPECT_EXIT 1 EXPECT_STDERR "Contact with a law runs on one process")
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.block_3d prm/block_3d.prm
   SET "Constants/h = 0.5" COMPARE_RANKS 1e-6)
@@ -264,6 +277,9 @@ kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
 kedge_add_restart_test(scene.restart.ghost prm/spinning_body.prm KILLS 1
   SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Stabilisation/Method = ghost")
 kedge_add_restart_test(scene.restart.fields prm/crossing_bodies.prm KILLS 1
+  SET "Output/Checkpoint every steps = 5")
+# surfaces and closed contacts go on where they were
+kedge_add_restart_test(scene.restart.contact prm/block_on_incline.prm KILLS 1
   SET "Output/Checkpoint every steps = 5")
 # the clock goes on in the steps that Newton's method has found good
 kedge_add_restart_test(scene.restart.adapted_steps prm/collapse.prm KILLS 1

@@ -97,7 +97,7 @@ namespace kedge
   Ledger::open()
   {
     for (Item &item : items)
-      item.booked = item.entry.kind == Kind::lowest ? std::numeric_limits<double>::max() : 0.;
+      item.booked = is_extreme(item) ? std::numeric_limits<double>::max() : 0.;
   }
 
 
@@ -106,8 +106,8 @@ namespace kedge
   Ledger::book(const Index entry, const double share)
   {
     Item &item = items[entry];
-    if (item.entry.kind == Kind::lowest)
-      item.booked = std::min(item.booked, share);
+    if (is_extreme(item))
+      item.booked = std::min(item.booked, sign_of_extreme(item) * share);
     else
       item.booked += share;
     if (item.whole_entry != no_entry)
@@ -121,7 +121,7 @@ namespace kedge
   {
     std::vector<double> sums, lowest;
     for (const Item &item : items)
-      (item.entry.kind == Kind::lowest ? lowest : sums).push_back(item.booked);
+      (is_extreme(item) ? lowest : sums).push_back(item.booked);
     MPI_Allreduce(MPI_IN_PLACE,
                   sums.data(),
                   static_cast<int>(sums.size()),
@@ -137,7 +137,7 @@ namespace kedge
     auto sum = sums.begin(), low = lowest.begin();
     for (Item &item : items)
       {
-        const double booked = item.entry.kind == Kind::lowest ? *low++ : *sum++;
+        const double booked = is_extreme(item) ? sign_of_extreme(item) * *low++ : *sum++;
         item.value          = item.entry.kind == Kind::total ? item.value + booked : booked;
       }
   }

@@ -1,3 +1,5 @@
+#include <kedge/points/outline.h>
+
 #include <boost/math/tools/roots.hpp>
 
 #include "shapes.h"
@@ -115,7 +117,9 @@ namespace kedge
 
 
     template <int dim>
-    class Union : public Geometry<dim>
+    class Union
+      : public Geometry<dim>
+      , public Outlined<dim>
     {
     public:
       Union(const Shape<dim> &a, const Shape<dim> &b)
@@ -160,6 +164,20 @@ namespace kedge
         if (b->filling(box) == Filling::empty)
           return a->exact_moments(box);
         return std::nullopt;
+      }
+
+      /** Of parts that lie apart. */
+      std::optional<SurfaceMesh<dim>>
+      outline(const double spacing) const override
+      {
+        auto       of_a = kedge::outline(*a, spacing);
+        const auto of_b = kedge::outline(*b, spacing);
+        if (!of_a || !of_b ||
+            a->bounding_box({}).get_neighbor_type(b->bounding_box({})) !=
+              dealii::NeighborType::not_neighbors)
+          return std::nullopt;
+        of_a->append(*of_b);
+        return of_a;
       }
 
     private:

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/outline.h>
 
 #include "shapes.h"
 #include "stretches.h"
@@ -43,7 +44,9 @@ namespace kedge
 
 
     template <int dim>
-    class Box : public Geometry<dim>
+    class Box
+      : public Geometry<dim>
+      , public Outlined<dim>
     {
     public:
       Box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper)
@@ -116,6 +119,12 @@ namespace kedge
         return VolumeMoments<dim>::of_box(half).about(to_centre);
       }
 
+      std::optional<SurfaceMesh<dim>>
+      outline(const double spacing) const override
+      {
+        return mesh_of_box(lower, upper, spacing);
+      }
+
     private:
       dealii::Point<dim> lower, upper;
       double             size = 0;
@@ -124,7 +133,9 @@ namespace kedge
 
 
     template <int dim>
-    class Ball : public Geometry<dim>
+    class Ball
+      : public Geometry<dim>
+      , public Outlined<dim>
     {
     public:
       Ball(const dealii::Point<dim> &centre, const double radius)
@@ -168,6 +179,12 @@ namespace kedge
         return below_parabola(1., r[direction], r * r - radius * radius, length);
       }
 
+      std::optional<SurfaceMesh<dim>>
+      outline(const double spacing) const override
+      {
+        return mesh_of_ball(centre, radius, spacing);
+      }
+
     private:
       dealii::Point<dim> centre;
       double             radius;
@@ -176,7 +193,9 @@ namespace kedge
 
 
     template <int dim>
-    class Cylinder : public Geometry<dim>
+    class Cylinder
+      : public Geometry<dim>
+      , public Outlined<dim>
     {
     public:
       Cylinder(const dealii::Point<dim> &begin, const dealii::Point<dim> &end, const double radius)
@@ -240,6 +259,15 @@ namespace kedge
         return one_stretch(std::max(curved[0].first, std::min(first, last)),
                            std::min(curved[0].second, std::max(first, last)),
                            segment);
+      }
+
+      std::optional<SurfaceMesh<dim>>
+      outline(const double spacing) const override
+      {
+        if constexpr (dim == 3)
+          return mesh_of_cylinder(begin, end, radius, spacing);
+        else
+          return std::nullopt;
       }
 
     private:

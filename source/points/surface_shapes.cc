@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/outline.h>
 
 #include "shapes.h"
 #include "stretches.h"
@@ -42,7 +43,9 @@ namespace kedge
 
 
 
-    class Polygon : public Geometry<2>
+    class Polygon
+      : public Geometry<2>
+      , public Outlined<2>
     {
     public:
       explicit Polygon(const std::vector<dealii::Point<2>> &corners)
@@ -149,6 +152,12 @@ namespace kedge
         return result;
       }
 
+      std::optional<SurfaceMesh<2>>
+      outline(const double spacing) const override
+      {
+        return mesh_of_polygon(corners, spacing);
+      }
+
     private:
       const dealii::Point<2> &
       next(const std::size_t i) const
@@ -217,7 +226,9 @@ namespace kedge
 
 
 
-    class Enclosed : public Geometry<3>
+    class Enclosed
+      : public Geometry<3>
+      , public Outlined<3>
     {
     public:
       explicit Enclosed(const std::shared_ptr<const TriangleSurface> &surface)
@@ -272,6 +283,12 @@ namespace kedge
       exact_moments(const dealii::BoundingBox<3> &box) const override
       {
         return surface->moments_within(box);
+      }
+
+      std::optional<SurfaceMesh<3>>
+      outline(const double spacing) const override
+      {
+        return mesh_of_triangles(*surface, spacing);
       }
 
     private:

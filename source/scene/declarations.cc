@@ -179,7 +179,12 @@ namespace kedge
            {"Where",
             "",
             allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-            "All nodes where this is true, for example abs(x) < 1e-6 && y > 2."}}};
+            "All nodes where this is true, for example abs(x) < 1e-6 && y > 2."},
+           {"Body",
+            "",
+            allow.text("the name of a section of Bodies").or_empty(),
+            "Where a Contact lets bodies move apart: only the nodes of this body and of those that "
+            "move with it. Empty: those of all bodies."}}};
         section.entries.push_back(
           {"Reaction",
            "false",

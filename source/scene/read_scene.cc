@@ -423,6 +423,13 @@ namespace kedge
           read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
       });
     errors.attempt([&]() {
+      for_each_name(reader, "Node conditions", [&](const SectionReader &section) {
+        if (!section.is_empty("Body"))
+          find_name(reader, section, "Body", "Bodies");
+        scene.node_condition_bodies.push_back(section.text("Body"));
+      });
+    });
+    errors.attempt([&]() {
       scene.contacts = read_contacts(reader);
     });
     errors.attempt([&]() {

@@ -1,4 +1,6 @@
 // Which terms a scene has: the only place that asks which physics is on.
+#include <kedge/base/exceptions.h>
+#include <kedge/contact/contact_term.h>
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
 #include <kedge/solid/follower_term.h>
@@ -7,6 +9,7 @@
 #include <kedge/solid/load_term.h>
 #include <kedge/solid/solid_term.h>
 #include <kedge/solid/support_term.h>
+#include <kedge/surfaces/surface_term.h>
 
 namespace kedge
 {
@@ -64,7 +67,7 @@ namespace kedge
         FollowerPressures<dim>(following, scene.constants, program),
         bodies.names,
         scheme));
-    add_term(std::make_unique<SupportTerm<dim>>(field, patch, scene.node_conditions));
+    add_term(std::make_unique<SupportTerm<dim>>(field, patch, conditions_of(field)));
 
     const GhostTerm<dim> *ghosts = nullptr;
     if (scene.stabilisation.method == StabilisationKind::ghost)
@@ -117,8 +120,85 @@ namespace kedge
                                                       scene.pore_fluid->fluid));
   }
 
-#define KEDGE_INSTANTIATE(dim) \
-  template void Model<dim>::choose_terms(const unsigned int, const LoadProgram &);
+  namespace
+  {
+    /** Of the bodies' surfaces, where no contact asks for another: parts of a cell. */
+    constexpr double default_spacing = 0.2;
+
+    /** How stiff the contact of two bodies is: eps = beta M / h, eps_t by Mindlin's ratio. */
+    template <int dim>
+    ContactBodies<dim>
+    contact_of(const BodySurface<dim>  &first,
+               const BodySurface<dim>  &second,
+               const Scene<dim>        &scene,
+               const Bodies            &bodies,
+               const ContactParameters &contact,
+               const double             cell_size)
+    {
+      double softness = 0., poisson = 0.;
+      for (const unsigned int body : {first.body, second.body})
+        {
+          softness += 0.5 / p_wave_modulus(bodies.materials[body]);
+          poisson += 0.5 * scene.materials[scene.bodies[body].material].poisson_ratio;
+        }
+      const double stiffness = contact.penalty_factor / (softness * cell_size);
+      return {&first, &second, stiffness, stiffness * (1. - poisson) / (1. - 0.5 * poisson)};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Model<dim>::choose_contact_terms()
+  {
+    const double h =
+      points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
+    std::map<std::string, const BodySurface<dim> *> surfaces;
+    const auto with_law = [](const ContactParameters &contact) {
+      return contact.method != ContactMethod::none;
+    };
+    for (unsigned int b = 0; b < bodies.names.size(); ++b)
+      {
+        double spacing = std::numeric_limits<double>::max(); // the finest that is asked for
+        for (const ContactParameters &contact : scene.contacts)
+          for (const auto *group : {&contact.first, &contact.second})
+            if (with_law(contact) &&
+                std::find(group->begin(), group->end(), bodies.names[b]) != group->end())
+              spacing =
+                std::min(spacing, contact.spacing > 0. ? contact.spacing : default_spacing * h);
+        if (spacing < std::numeric_limits<double>::max())
+          surfaces[bodies.names[b]] =
+            &add_term(std::make_unique<SurfaceTerm<dim>>(bodies.names[b],
+                                                         b,
+                                                         bodies.field[b],
+                                                         fields[bodies.field[b]]->patch,
+                                                         scene.bodies[b].geometry,
+                                                         spacing))
+               .surface();
+      }
+    if (!surfaces.empty() && dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+      throw UserError("Contact with a law runs on one process, not on several. Start kedge "
+                      "without mpirun, or leave the entries of the law out of Contact.");
+    for (const ContactParameters &contact : scene.contacts)
+      if (with_law(contact))
+        {
+          if (scene.pore_fluid && (contact.friction > 0. || contact.adhesion > 0.))
+            throw UserError("Contact/" + contact.name +
+                            ": Friction acts on the effective pressure, which contact does not "
+                            "know yet: with a Pore fluid it must be frictionless.");
+          std::vector<ContactBodies<dim>> pairs;
+          for (const std::string &first : contact.first)
+            for (const std::string &second : contact.second)
+              pairs.push_back(
+                contact_of(*surfaces.at(first), *surfaces.at(second), scene, bodies, contact, h));
+          add_term(std::make_unique<ContactTerm<dim>>(contact, pairs, scheme, h));
+        }
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                                     \
+  template void Model<dim>::choose_terms(const unsigned int, const LoadProgram &); \
+  template void Model<dim>::choose_contact_terms();
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 } // namespace kedge

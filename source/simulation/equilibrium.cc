@@ -86,6 +86,8 @@ namespace kedge
     for (auto &record : records)
       start_anew(record);
     result.points = std::move(records);
+    for (const auto &term : model.terms)
+      term->save(result.terms);
     return result;
   }
 

@@ -26,6 +26,8 @@ namespace kedge
     make_fields(program);
     for (unsigned int field = 0; field < fields.size(); ++field)
       choose_terms(field, program);
+    n_field_terms = terms.size();
+    choose_contact_terms();
     declare();
   }
 
@@ -39,7 +41,6 @@ namespace kedge
     const bool ties   = scene.stabilisation.method == StabilisationKind::aggregation;
     const int  stencil_radius =
       ghosts ? GhostTerm<dim>::radius : bodies.stencil_radius(); // of the widest body
-    const NodeConditions<dim> conditions(scene.node_conditions, scene.constants, program);
 
     PatchParameters parameters;
     parameters.body_names       = bodies.names;
@@ -57,12 +58,12 @@ namespace kedge
             for (std::size_t b = 0; b < bodies.names.size(); ++b)
               parameters.holds_body[b] = bodies.field[b] == f;
           }
-        fields.push_back(
-          std::make_unique<Field<dim>>(bodies.field_names[f],
-                                       points.grid(),
-                                       parameters,
-                                       conditions,
-                                       std::max(stencil_radius, bodies.tangent_radius())));
+        fields.push_back(std::make_unique<Field<dim>>(
+          bodies.field_names[f],
+          points.grid(),
+          parameters,
+          NodeConditions<dim>(conditions_of(f), scene.constants, program),
+          std::max(stencil_radius, bodies.tangent_radius())));
         if (scheme.dynamic)
           fields.back()->transfer = std::make_unique<MotionTransfer<dim>>(f,
                                                                           fields.back()->patch,
@@ -77,13 +78,32 @@ namespace kedge
 
 
   template <int dim>
+  std::vector<NodeConditionParameters<dim>>
+  Model<dim>::conditions_of(const unsigned int field) const
+  {
+    std::vector<NodeConditionParameters<dim>> result;
+    for (std::size_t c = 0; c < scene.node_conditions.size(); ++c)
+      {
+        bool holds = scene.node_condition_bodies[c].empty();
+        for (std::size_t b = 0; b < bodies.names.size(); ++b)
+          holds = holds ||
+                  (bodies.names[b] == scene.node_condition_bodies[c] && bodies.field[b] == field);
+        if (holds)
+          result.push_back(scene.node_conditions[c]);
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   Model<dim>::declare()
   {
     for (auto &term : terms)
       term->declare_unknowns(unknowns);
-    const std::size_t n_terms = terms.size() / fields.size(); // each field has the same ones
-    for (std::size_t k = 0; k < terms.size(); ++k)
+    const std::size_t n_terms = n_field_terms / fields.size(); // each field has the same ones
+    for (std::size_t k = 0; k < n_field_terms; ++k)
       {
         const bool is_part = fields.size() > 1;
         if (is_part && k % n_terms == 0)
@@ -92,6 +112,8 @@ namespace kedge
         if (is_part && (k + 1) % n_terms == 0)
           ledger.close_part();
       }
+    for (std::size_t k = n_field_terms; k < terms.size(); ++k) // those between fields
+      terms[k]->declare_books(ledger);
     ledger.declare_stored("total_energy", "J", Ledger::Section::work, "energy");
     ledger.declare_error("energy_error", "J", Ledger::Section::work, "energy");
   }

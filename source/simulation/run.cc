@@ -87,6 +87,8 @@ namespace kedge
       {
         stage = find_equilibrium(model.scene, communicator, folder.log());
         model.points.replace(std::move(stage.points));
+        for (auto &term : model.terms)
+          term->restore(stage.terms);
         step.points_changed();
       }
     step.initialise_points(clock.time(), has_stage);

@@ -211,6 +211,8 @@ namespace kedge
       }
     data.arrays["covered_weights"].assign(model.points.covered_weights().begin(),
                                           model.points.covered_weights().end());
+    for (const auto &term : model.terms)
+      term->save(data.arrays);
     data.points = model.points.points().records();
     checkpoints.write(data);
     last_checkpoint_wall = wall_time();
@@ -271,6 +273,8 @@ namespace kedge
       model.points.restore(data.points, covered, points_per_cell);
     else
       model.points.replace(data.points); // shares them out anew
+    for (auto &term : model.terms)
+      term->restore(data.arrays);
     step.points_changed();
 
     clock.restore({data.scalars.at("time"),

@@ -103,8 +103,31 @@ namespace kedge
         term->start(trial);
     }
     step_equations.start(trial, times.t_n + model.pressure_fraction * times.dt);
-    const NewtonReport newton = solve_newton(step_equations, model.scene.newton);
-    return check_points(newton);
+    return check_points(solve());
+  }
+
+
+
+  /** Newton's method, again as long as a term has held something fixed that has changed since. */
+  template <int dim>
+  NewtonReport
+  Step<dim>::solve()
+  {
+    NewtonReport report      = solve_newton(step_equations, model.scene.newton);
+    const auto   has_changed = [&]() {
+      bool any = false;
+      for (auto &term : model.terms)
+        any = term->refresh(trial) || any;
+      return any;
+    };
+    while (report.converged && has_changed())
+      {
+        NewtonReport again = solve_newton(step_equations, model.scene.newton);
+        again.iterations += report.iterations;
+        again.linear_iterations += report.linear_iterations;
+        report = std::move(again);
+      }
+    return report;
   }
 
 

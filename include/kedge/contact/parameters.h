@@ -6,6 +6,13 @@
 
 namespace kedge
 {
+  /** How bodies of two groups act on each other. */
+  enum class ContactMethod
+  {
+    none,          ///< they pass through each other
+    surface_points ///< points of their surfaces, discrete gradient of the gap's energy
+  };
+
   /**
    * Two groups of bodies that may move apart: those of one group share no nodes
    * with those of the other. Without a law between them they pass through each other.
@@ -14,6 +21,11 @@ namespace kedge
   {
     std::string              name;
     std::vector<std::string> first, second; ///< bodies of each group
+    ContactMethod            method         = ContactMethod::none;
+    double                   friction       = 0.; ///< mu [-]
+    double                   adhesion       = 0.; ///< [Pa]
+    double                   penalty_factor = 2.; ///< beta of eps = beta M / h [-]
+    double                   spacing        = 0.; ///< of the surfaces' points [m]; 0: h/5
   };
 } // namespace kedge
 

@@ -41,6 +41,7 @@ namespace kedge
     {
       present, ///< of the present state: booked anew for each state, shares of ranks added up
       lowest,  ///< of the present state: the smallest of what is booked, of all ranks
+      highest, ///< likewise the largest
       of_step, ///< of the last accepted step; shares added up
       total    ///< added up over all accepted steps of the run
     };
@@ -173,6 +174,18 @@ namespace kedge
 
     Index
     find_or_add(const Entry &entry);
+
+    static bool
+    is_extreme(const Item &item)
+    {
+      return item.entry.kind == Kind::lowest || item.entry.kind == Kind::highest;
+    }
+    /** With which an extreme is the smallest of what is booked. */
+    static double
+    sign_of_extreme(const Item &item)
+    {
+      return item.entry.kind == Kind::lowest ? 1. : -1.;
+    }
 
     double
     value(const Item &item) const;

@@ -7,6 +7,8 @@
 #include <kedge/equations/trial.h>
 #include <kedge/points/generation.h>
 
+#include <map>
+
 namespace kedge
 {
   /** Whether a term could answer to a trial state, and why not. */
@@ -22,6 +24,9 @@ namespace kedge
     }
   };
 
+  /** What terms keep in a checkpoint: numbers under names of their own. */
+  using SavedState = std::map<std::string, std::vector<double>>;
+
   /**
    * A part of the balance equations: internal forces, inertia, loads, pore water,
    * ghosts, and what is to come. Terms are chosen once, from the scene; physics that is
@@ -31,11 +36,13 @@ namespace kedge
    *   attach                      to the points just generated
    *   declare                     its unknowns, its columns of the books
    *   each configuration:         reach, activate
-   *   each attempt at a step:     start; add_residual, add_tangent, prepare_solver; finish
+   *   each attempt at a step:     start; add_residual, add_tangent, prepare_solver; refresh; finish
    *   each accepted step:         book, commit
    *   each state that is shown:   book_state
    *
-   * Nothing but attach(), initialise() and commit() changes what is committed: a
+   *   each checkpoint:            save; restore in the run that resumes it
+   *
+   * Nothing but attach(), initialise(), commit() and restore() changes what is committed: a
    * rejected step leaves nothing to undo.
    */
   template <int dim>
@@ -115,6 +122,17 @@ namespace kedge
     prepare_solver(const Trial<dim> &, const Tangent<dim> &, LinearSolver &)
     {}
 
+    /**
+     * After convergence: takes anew from the trial state what the term holds fixed while the
+     * equations are solved, such as directions or multipliers of contact. Says whether they
+     * must be solved again (collective; all ranks must say the same).
+     */
+    virtual bool
+    refresh(const Trial<dim> &)
+    {
+      return false;
+    }
+
     /** After convergence: what the points will be, or why the step cannot be taken. */
     virtual Answer
     finish(const Trial<dim> &)
@@ -135,6 +153,16 @@ namespace kedge
     /** Books the committed state: this rank's shares. */
     virtual void
     book_state(const MaterialPoints<dim> &, Ledger &) const
+    {}
+
+    /** Adds what is committed of the term itself, beside the points and the books. */
+    virtual void
+    save(SavedState &) const
+    {}
+
+    /** Goes on from what save() has kept. */
+    virtual void
+    restore(const SavedState &)
     {}
   };
 

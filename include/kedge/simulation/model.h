@@ -71,6 +71,11 @@ namespace kedge
                         LoadTerm<dim>        &loads,
                         const GhostTerm<dim> *ghosts,
                         const LoadProgram    &program);
+    /** The node conditions that hold for a field. */
+    std::vector<NodeConditionParameters<dim>>
+    conditions_of(const unsigned int field) const;
+    void
+    choose_contact_terms();
     template <class T>
     T &
     add_term(std::unique_ptr<T> term);
@@ -80,6 +85,7 @@ namespace kedge
     check_overlaps() const;
 
     std::vector<PointOrigin<dim>> generated;
+    std::size_t                   n_field_terms = 0; ///< of single fields; others come behind
   };
 } // namespace kedge
 

@@ -81,6 +81,8 @@ namespace kedge
     find_nodes();
     LinearStatus
     points_to_nodes();
+    NewtonReport
+    solve();
     StepReport
     check_points(const NewtonReport &newton);
     std::string

@@ -1,0 +1,138 @@
+#ifndef kedge_contact_contact_term_h
+#define kedge_contact_contact_term_h
+
+#include <kedge/contact/coupling_sum.h>
+#include <kedge/contact/parameters.h>
+#include <kedge/contact/surface_samples.h>
+#include <kedge/equations/term.h>
+
+namespace kedge
+{
+  /** Two bodies that may touch, and how stiff the contact between them is. */
+  template <int dim>
+  struct ContactBodies
+  {
+    const BodySurface<dim> *first, *second;
+    double                  normal_stiffness, tangent_stiffness; ///< [Pa/m]
+  };
+
+  /**
+   * Contact between the surfaces of two groups of bodies, by samples on both of them, each half:
+   *   R -= sum of A B^T (p n + t),   D = B u
+   * with D the relative displacement of a sample and its partner over the step, and the law
+   * contact_response(). Directions and partners are those of the balance's configuration, first
+   * of a predicted one; once the equations are solved they are taken anew until the forces
+   * change no more than a little.
+   *
+   * Without inertia the balance is that of the step's end, and the pressures are found by Uzawa's
+   * iteration, lambda <- <lambda - eps g>, until no closed sample has more than a small gap.
+   */
+  template <int dim>
+  class ContactTerm : public Term<dim>
+  {
+  public:
+    /** In parts of a cell: how far partners are looked for, how deep surfaces may overlap, how
+     * small the gaps of bodies at rest must be. */
+    static constexpr double reach = 1., largest_overlap = 0.5, smallest_gap = 1e-3;
+
+    /** How often at most directions are taken anew, and multipliers. */
+    static constexpr unsigned int most_passes = 3, most_updates = 40;
+
+    /** A change of the contact's forces by less than this part of them is let be. */
+    static constexpr double small_change = 1e-3;
+
+    /**
+     * @param bodies    each of one group with each of the other
+     * @param cell_size the smallest of the grid [m]
+     */
+    ContactTerm(const ContactParameters               &parameters,
+                const std::vector<ContactBodies<dim>> &bodies,
+                const Scheme                          &scheme,
+                const double                           cell_size);
+
+    std::string
+    name() const override
+    {
+      return "contact '" + parameters.name + "'";
+    }
+
+    void
+    declare_books(Ledger &ledger) override;
+
+    /** @throws UserError for bodies that overlap by more than a surface can have come by contact */
+    void
+    attach(std::vector<GeneratedPoint<dim>> &points) override;
+
+    void
+    start(Trial<dim> &trial) override;
+
+    Answer
+    add_residual(const Trial<dim> &trial, Residual<dim> &residual) override;
+
+    void
+    add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent) override;
+
+    bool
+    refresh(const Trial<dim> &trial) override;
+
+    Answer
+    finish(const Trial<dim> &trial) override;
+
+    void
+    book(const Trial<dim> &trial, const Residual<dim> &residual, Ledger &ledger) const override;
+
+    void
+    commit(const Trial<dim> &trial, MaterialPoints<dim> &cloud) override;
+
+    void
+    book_state(const MaterialPoints<dim> &cloud, Ledger &ledger) const override;
+
+    void
+    save(SavedState &state) const override;
+
+    void
+    restore(const SavedState &state) override;
+
+    /** The halves of each pair of bodies: samples on the first body's surface, on the second's. */
+    const std::vector<SurfaceSamples<dim>> &
+    halves() const
+    {
+      return passes;
+    }
+
+  private:
+    struct Columns
+    {
+      Ledger::Index energy, friction, released;
+      Ledger::Index force[dim], moment[3], area, pressure, overlap, duration;
+    };
+    using Forces = std::vector<dealii::Tensor<1, dim>>;
+    using Memory = std::map<unsigned int, typename SurfaceSamples<dim>::Memory>;
+
+    MovingSurface<dim> &
+    moving(const BodySurface<dim> &surface);
+    std::vector<Forces>
+    sample_forces() const;
+    bool
+    directions_have_changed();
+    bool
+    update_multipliers();
+    void
+    move_surfaces(const Trial<dim> &trial);
+    bool
+    touches() const;
+
+    const ContactParameters                          parameters;
+    const Scheme                                     scheme;
+    const double                                     cell_size;
+    const double                                     alpha; ///< part of the step of the balance
+    std::vector<std::unique_ptr<MovingSurface<dim>>> surfaces;
+    std::vector<SurfaceSamples<dim>> passes; ///< first on second, second on first ..
+    std::vector<Memory>              end_of_step;
+    double                           released = 0.; ///< energy lost track of [J]
+    unsigned int                     n_passes = 0, n_updates = 0;
+    Columns                          columns{};
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,226 @@
+#ifndef kedge_contact_surface_samples_h
+#define kedge_contact_surface_samples_h
+
+#include <kedge/contact/contact_law.h>
+#include <kedge/surfaces/body_surface.h>
+#include <kedge/surfaces/facet_search.h>
+
+namespace kedge
+{
+  /** A surface as a step sees it. */
+  template <int dim>
+  struct MovingSurface
+  {
+    explicit MovingSurface(const BodySurface<dim> &surface)
+      : surface(surface)
+    {}
+
+    /** Takes the displacements over the step; the mesh is then where @p part of them leads to. */
+    void
+    move(const std::vector<dealii::Tensor<1, dim>> &displacements, const double part);
+
+
+    const BodySurface<dim>             &surface;
+    SurfaceMesh<dim>                    mesh;          ///< in the configuration of the balance
+    SurfaceMesh<dim>                    end;           ///< at the end of the step
+    std::vector<dealii::Tensor<1, dim>> displacements; ///< of the vertices over the step [m]
+  };
+
+  /**
+   * The middles of a surface's facets as points of contact with another surface: one of the two
+   * halves of a contact, of which each bears half of the load. Where a sample meets the other
+   * surface, in which direction, and how large the gap was at the start of the step, is found
+   * once and then held fixed, so that the law depends on the relative displacement alone.
+   *
+   * In conserving steps the gap of a closed sample is not measured anew but carried on, g_1 = g_0 +
+   * s.D: the energy stored in it then changes by what the pressure has done and by nothing else.
+   * s is the normal, tilted in the direction of sliding so that g_1 is what will be
+   * measured at the end of the step; otherwise errors would add up as samples slide over facets.
+   */
+  template <int dim>
+  class SurfaceSamples
+  {
+  public:
+    /** Of a sample, in a step. */
+    struct Sample
+    {
+      unsigned int                       facet; ///< of the sampled surface
+      typename FacetSearch<dim>::Partner partner;
+      dealii::Tensor<1, dim>             gap_slope;  ///< s
+      double                             gap_n;      ///< g_0 [m]
+      dealii::Tensor<1, dim>             slip_n;     ///< e_0 [m]
+      double                             multiplier; ///< [Pa]
+      double                             area;       ///< that it stands for [m^2; m in 2D]
+    };
+
+    /** What is committed of a sample that is closed, or that cannot yet be measured as open. */
+    struct Memory
+    {
+      unsigned int           partner;    ///< facet
+      double                 gap;        ///< [m]
+      double                 multiplier; ///< [Pa]
+      dealii::Tensor<1, dim> slip;       ///< elastic part [m]
+      dealii::Tensor<1, dim> normal;
+    };
+
+    /** What became of a sample. */
+    struct Outcome
+    {
+      ContactResponse<dim> response;
+      double               true_gap; ///< at the end of the step, as measured [m]
+    };
+
+    /**
+     * @param share of the load that these samples bear
+     * @param reach how far off partners are looked for [m]
+     * @param depth a surface deeper in the other than this has not come there by contact [m]
+     */
+    SurfaceSamples(const MovingSurface<dim> &sampled,
+                   const MovingSurface<dim> &other,
+                   const ContactLaw         &law,
+                   const double              share,
+                   const double              reach,
+                   const double              depth)
+      : sampled(sampled)
+      , other(other)
+      , law(law)
+      , share(share)
+      , reach(reach)
+      , depth(depth)
+    {}
+
+    /** Finds the samples in the configuration of the moved meshes, with @p multipliers if given. */
+    void
+    find();
+
+    /** The box around the sampled surface in the configuration of the moved meshes. */
+    dealii::BoundingBox<dim>
+    box_of_samples() const;
+
+    /** Puts the samples found before, and their multipliers, in the place of the present ones. */
+    void
+    exchange(std::vector<Sample> &others)
+    {
+      samples_.swap(others);
+    }
+
+    /** Multipliers by facet, of closed samples. */
+    std::map<unsigned int, double>
+    multipliers() const;
+
+    /** Takes multipliers, for the facets that are not named 0. */
+    void
+    set_multipliers(const std::map<unsigned int, double> &values);
+
+    const std::vector<Sample> &
+    samples() const
+    {
+      return samples_;
+    }
+
+    /** Relative displacement of a sample over the step. */
+    dealii::Tensor<1, dim>
+    relative_displacement(const Sample &sample) const;
+
+    ContactResponse<dim>
+    response(const Sample &sample) const
+    {
+      return contact_response(law,
+                              sample.partner.normal,
+                              sample.gap_slope,
+                              sample.gap_n,
+                              sample.slip_n,
+                              sample.multiplier,
+                              relative_displacement(sample));
+    }
+
+    Outcome
+    outcome(const Sample &sample) const;
+
+    /** Middle of a sampled facet, at the start of the step [m]. */
+    dealii::Point<dim>
+    place(const Sample &sample) const
+    {
+      return place_in(sampled.surface.mesh(), sample);
+    }
+
+    /** Its partner's place, at the start of the step [m]. */
+    dealii::Point<dim>
+    partner_place(const Sample &sample) const
+    {
+      return partner_in(other.surface.mesh(), sample);
+    }
+
+    /** The same two in the configuration of the moved meshes. */
+    dealii::Point<dim>
+    place_at_balance(const Sample &sample) const
+    {
+      return place_in(sampled.mesh, sample);
+    }
+
+    dealii::Point<dim>
+    partner_at_balance(const Sample &sample) const
+    {
+      return partner_in(other.mesh, sample);
+    }
+
+    /** Energy that the committed samples store [J]. */
+    double
+    stored() const
+    {
+      return stored_of(memory);
+    }
+
+    /** Energy that remembered samples store [J]. */
+    double
+    stored_of(const std::map<unsigned int, Memory> &remembered) const;
+
+    /** The same of the present samples at the start of the step [J]. */
+    double
+    stored_at_start() const;
+
+    /** What is to be remembered of the step, and its stored energy [J]. */
+    std::map<unsigned int, Memory>
+    memory_of_step(double &stored) const;
+
+    void
+    commit(std::map<unsigned int, Memory> &&of_step)
+    {
+      memory = std::move(of_step);
+    }
+
+    std::vector<double>
+    save() const;
+
+    /** @param to_gaps turns multipliers into gaps that press as hard */
+    void
+    restore(const std::vector<double> &saved, const bool to_gaps);
+
+    const MovingSurface<dim> &sampled, &other;
+    const ContactLaw          law;
+
+  private:
+    /** Largest tilt of the gap's slope: the part of the pressure that acts along the surface. */
+    static constexpr double largest_tilt = 0.01;
+
+    bool
+    set_start(Sample &sample) const;
+    void
+    tilt_to_end(const FacetSearch<dim> &search, Sample &sample) const;
+    dealii::Point<dim>
+    place_in(const SurfaceMesh<dim> &mesh, const Sample &sample) const;
+    dealii::Point<dim>
+    partner_in(const SurfaceMesh<dim> &mesh, const Sample &sample) const;
+    double
+    energy(const double gap, const double multiplier, const dealii::Tensor<1, dim> &slip) const
+    {
+      return stored_in_gap(law, gap, multiplier) + 0.5 * law.tangent_stiffness * slip.norm_square();
+    }
+
+    const double                   share, reach, depth;
+    std::vector<Sample>            samples_;
+    std::map<unsigned int, Memory> memory; ///< committed, by facet
+  };
+} // namespace kedge
+
+#endif

@@ -1,0 +1,128 @@
+#ifndef kedge_surfaces_body_surface_h
+#define kedge_surfaces_body_surface_h
+
+#include <kedge/fields/patch.h>
+#include <kedge/geometry/surface_mesh.h>
+
+namespace kedge
+{
+  /**
+   * The surface of a body, carried by it. A vertex moves by the displacements of the corners of
+   * its *root cell*, the nearest cell that the body fills well: by the multilinear polynomial of
+   * that cell, extrapolated to the vertex, dx = sum_I N_I(x) u_I,   sum_I N_I = 1,   sum_I N_I x_I
+   * = x. Rigid motions are therefore followed to round-off, and forces that act on vertices come to
+   * the nodes with their resultant and their moment, and with nothing for nodes that next to no
+   * mass belongs to. What a step tries is not kept here; commit() moves the surface.
+   */
+  template <int dim>
+  class BodySurface
+  {
+  public:
+    /** Corners of a cell. */
+    static constexpr unsigned int n_corners = 1u << dim;
+
+    /** Of the cells around a vertex, the nearest one filled to this part is its root. */
+    static constexpr double well_filled = 0.6;
+
+    /** In so many cells around a vertex a root is searched; without one the fullest serves. */
+    static constexpr int search_radius = 2;
+
+    /** @param field number of the field, whose patch must last as long as this */
+    BodySurface(const std::string &body_name,
+                const unsigned int body,
+                const unsigned int field,
+                const Patch<dim>  &patch)
+      : body_name(body_name)
+      , body(body)
+      , field(field)
+      , patch(patch)
+    {}
+
+    /** Takes its vertices and facets. */
+    void
+    seed(const SurfaceMesh<dim> &seeded);
+
+    /** Finds the root cells in the configuration that the patch has just read. */
+    void
+    find_roots();
+
+    unsigned int
+    n_vertices() const
+    {
+      return static_cast<unsigned int>(mesh_.vertices.size());
+    }
+
+    unsigned int
+    n_facets() const
+    {
+      return static_cast<unsigned int>(mesh_.facets.size());
+    }
+
+    /** The committed places, and the facets. */
+    const SurfaceMesh<dim> &
+    mesh() const
+    {
+      return mesh_;
+    }
+
+    /** Area of a facet at the start of the run [m^2; m in 2D]. */
+    double
+    reference_area(const unsigned int facet) const
+    {
+      return reference_areas[facet];
+    }
+
+    /** Values at the vertices of a nodal vector with dim components per local node. */
+    void
+    interpolate(const std::vector<double>           &nodal,
+                std::vector<dealii::Tensor<1, dim>> &at_vertices) const;
+
+    /** Calls visit(local node, N) for the corners of a vertex's root cell. */
+    template <typename Visit>
+    void
+    for_nodes(const unsigned int vertex, const Visit &visit) const
+    {
+      const auto &corners = roots[root_of_vertex[vertex]];
+      for (unsigned int c = 0; c < n_corners; ++c)
+        visit(corners[c], weights[vertex][c]);
+    }
+
+    /** Adds a force on a vertex to nodal sums of the patch's components per local node. */
+    void
+    add_force(const unsigned int            vertex,
+              const dealii::Tensor<1, dim> &force,
+              std::vector<double>          &sums) const;
+
+    /** Moves the vertices. */
+    void
+    commit(const std::vector<dealii::Tensor<1, dim>> &displacements);
+
+    /** What a checkpoint keeps of it, and takes back. */
+    std::vector<double>
+    save() const;
+
+    void
+    restore(const std::vector<double> &saved);
+
+    const std::string  body_name;
+    const unsigned int body;
+    const unsigned int field;
+    const Patch<dim>  &patch;
+
+  private:
+    using Corners = std::array<unsigned int, n_corners>;
+
+    std::vector<double>
+    fillings() const;
+    LatticeIndex<dim>
+    root_cell(const dealii::Point<dim> &x, const std::vector<double> &filling) const;
+
+    SurfaceMesh<dim>                           mesh_;
+    std::vector<double>                        reference_areas;
+    std::vector<Corners>                       roots; ///< local nodes of the root cells in use
+    std::vector<unsigned int>                  root_of_vertex;
+    std::vector<std::array<double, n_corners>> weights; ///< of each vertex
+  };
+} // namespace kedge
+
+#endif

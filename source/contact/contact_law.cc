@@ -1,0 +1,143 @@
+#include <kedge/contact/contact_law.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kedge
+{
+  ContactPressure
+  contact_pressure(const ContactLaw &law,
+                   const double      gap_n,
+                   const double      change,
+                   const double      multiplier)
+  {
+    const double eps = law.normal_stiffness;
+    if (!law.conserving)
+      {
+        const double p = multiplier - eps * (gap_n + law.alpha * change);
+        return p > -eps * law.touch ? ContactPressure{std::max(p, 0.), -eps * law.alpha}
+                                    : ContactPressure();
+      }
+    // W = a^2 / (2 eps) with a = <lambda - eps g>, so that p = (a_0^2 - a_1^2) / (2 eps dg)
+    const double a_0 = std::max(multiplier - eps * gap_n, 0.);
+    const double a_1 = std::max(multiplier - eps * (gap_n + change), 0.);
+    if (a_0 > 0. && a_1 > 0.)
+      return {0.5 * (a_0 + a_1), -0.5 * eps};
+    if (a_1 > 0.) // it closes; the gap gets smaller by more than a_1 / eps
+      {
+        const double p = -a_1 * a_1 / (2. * eps * change);
+        return {p, (a_1 - p) / change};
+      }
+    if (a_0 > 0.) // it opens
+      {
+        const double p = a_0 * a_0 / (2. * eps * change);
+        return {p, -p / change};
+      }
+    return {};
+  }
+
+
+
+  double
+  stored_in_gap(const ContactLaw &law, const double gap, const double multiplier)
+  {
+    const double a = std::max(multiplier - law.normal_stiffness * gap, 0.);
+    return 0.5 * a * a / law.normal_stiffness;
+  }
+
+
+
+  template <int dim>
+  ContactResponse<dim>
+  contact_response(const ContactLaw             &law,
+                   const dealii::Tensor<1, dim> &normal,
+                   const dealii::Tensor<1, dim> &gap_slope,
+                   const double                  gap_n,
+                   const dealii::Tensor<1, dim> &slip_n,
+                   const double                  multiplier,
+                   const dealii::Tensor<1, dim> &D)
+  {
+    const double          change   = gap_slope * D;
+    const ContactPressure pressure = contact_pressure(law, gap_n, change, multiplier);
+    const double          eps_t    = law.tangent_stiffness;
+
+    ContactResponse<dim> result;
+    result.pressure               = pressure.value;
+    result.gap_end                = gap_n + change;
+    result.traction               = pressure.value * gap_slope;
+    result.slope                  = pressure.slope * outer_product(gap_slope, gap_slope);
+    dealii::Tensor<2, dim> across = -1. * outer_product(normal, normal); // I - n n
+    for (int d = 0; d < dim; ++d)
+      across[d][d] += 1.;
+    if (!(pressure.value > 0.))
+      {
+        result.dissipation = 0.5 * eps_t * slip_n.norm_square();
+        if (pressure.slope < 0. && (law.friction > 0. || law.adhesion > 0.))
+          result.slope -= law.alpha * eps_t * across; // what touches is taken to stick
+        return result;
+      }
+    const double limit = law.friction * pressure.value + law.adhesion;
+    if (!(limit > 0.))
+      return result;
+
+    const dealii::Tensor<1, dim> D_t   = D - (D * normal) * normal;
+    const dealii::Tensor<1, dim> trial = -eps_t * (slip_n + law.alpha * D_t);
+    const double                 size  = trial.norm();
+    if (size <= limit)
+      {
+        result.traction += trial;
+        result.slope -= law.alpha * eps_t * across;
+        result.slip_end = slip_n + D_t;
+        return result;
+      }
+    const dealii::Tensor<1, dim> direction = trial / size, t = limit * direction;
+    result.slides = true;
+    result.traction += t;
+    result.slope +=
+      law.friction * pressure.slope * outer_product(direction, gap_slope) -
+      limit * eps_t * law.alpha / size * (across - outer_product(direction, direction));
+    result.slip_end    = slip_n - (t / eps_t + slip_n) / law.alpha;
+    result.dissipation = -t * (D_t - result.slip_end + slip_n);
+    return result;
+  }
+
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  turned(const dealii::Tensor<1, dim> &vector,
+         const dealii::Tensor<1, dim> &from,
+         const dealii::Tensor<1, dim> &to)
+  {
+    const double cosine = from * to;
+    if (!(cosine > -0.9)) // not a turn of a contact
+      return {};
+    // the least rotation that takes one direction to the other
+    const dealii::Tensor<1, dim> both   = from + to;
+    dealii::Tensor<1, dim>       result = vector - (vector * both) / (1. + cosine) * both;
+    result -= (result * to) * to;
+    const double size = result.norm();
+    return size > 0. ? vector.norm() / size * result : result;
+  }
+
+  template ContactResponse<2>
+  contact_response(const ContactLaw &,
+                   const dealii::Tensor<1, 2> &,
+                   const dealii::Tensor<1, 2> &,
+                   const double,
+                   const dealii::Tensor<1, 2> &,
+                   const double,
+                   const dealii::Tensor<1, 2> &);
+  template ContactResponse<3>
+  contact_response(const ContactLaw &,
+                   const dealii::Tensor<1, 3> &,
+                   const dealii::Tensor<1, 3> &,
+                   const double,
+                   const dealii::Tensor<1, 3> &,
+                   const double,
+                   const dealii::Tensor<1, 3> &);
+  template dealii::Tensor<1, 2>
+  turned(const dealii::Tensor<1, 2> &, const dealii::Tensor<1, 2> &, const dealii::Tensor<1, 2> &);
+  template dealii::Tensor<1, 3>
+  turned(const dealii::Tensor<1, 3> &, const dealii::Tensor<1, 3> &, const dealii::Tensor<1, 3> &);
+} // namespace kedge

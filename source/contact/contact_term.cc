@@ -1,0 +1,450 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/contact/contact_term.h>
+
+#include <sstream>
+
+namespace kedge
+{
+  template <int dim>
+  ContactTerm<dim>::ContactTerm(const ContactParameters               &parameters,
+                                const std::vector<ContactBodies<dim>> &bodies,
+                                const Scheme                          &scheme,
+                                const double                           cell_size)
+    : parameters(parameters)
+    , scheme(scheme)
+    , cell_size(cell_size)
+    , alpha(scheme.dynamic ? scheme.alpha_f : 1.)
+  {
+    for (const ContactBodies<dim> &pair : bodies)
+      {
+        ContactLaw law;
+        law.normal_stiffness  = pair.normal_stiffness;
+        law.tangent_stiffness = pair.tangent_stiffness;
+        law.friction          = parameters.friction;
+        law.adhesion          = parameters.adhesion;
+        law.alpha             = alpha;
+        law.conserving        = scheme.dynamic && !scheme.carries_acceleration && alpha == 0.5;
+        law.touch             = 1e-9 * cell_size;
+        const auto &first = moving(*pair.first), &second = moving(*pair.second);
+        for (const bool swapped : {false, true})
+          passes.emplace_back(swapped ? second : first,
+                              swapped ? first : second,
+                              law,
+                              0.5,
+                              reach * cell_size,
+                              largest_overlap * cell_size);
+      }
+    end_of_step.resize(passes.size());
+  }
+
+
+
+  template <int dim>
+  MovingSurface<dim> &
+  ContactTerm<dim>::moving(const BodySurface<dim> &surface)
+  {
+    for (auto &known : surfaces)
+      if (&known->surface == &surface)
+        return *known;
+    surfaces.push_back(std::make_unique<MovingSurface<dim>>(surface));
+    return *surfaces.back();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::declare_books(Ledger &ledger)
+  {
+    using Section  = Ledger::Section;
+    using Kind     = Ledger::Kind;
+    using Role     = Ledger::Role;
+    columns.energy = ledger.declare(
+      {"contact_energy", "J", Section::energy, Kind::present, Role::stored, "energy"});
+    columns.friction = ledger.declare(
+      {"friction_dissipation", "J", Section::energy, Kind::total, Role::lost, "energy"});
+    columns.released = ledger.declare(
+      {"contact_energy_released", "J", Section::energy, Kind::total, Role::lost, "energy"});
+
+    std::string of_pair = "_" + parameters.name;
+    std::replace(of_pair.begin(), of_pair.end(), ' ', '_');
+    const auto of_step = [&](const std::string &column, const std::string &unit, const Kind kind) {
+      return ledger.declare({"contact_" + column + of_pair, unit, Section::force, kind});
+    };
+    for (int d = 0; d < dim; ++d)
+      columns.force[d] = of_step(std::string("force_") + "xyz"[d], "N", Kind::of_step);
+    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
+      columns.moment[d] = of_step(std::string("moment_") + "xyz"[d], "N m", Kind::of_step);
+    columns.area     = of_step("area", dim == 3 ? "m^2" : "m", Kind::of_step);
+    columns.pressure = of_step("pressure", "Pa", Kind::highest);
+    columns.overlap  = of_step("overlap", "m", Kind::highest);
+    columns.duration = of_step("duration", "s", Kind::total);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
+  {
+    for (auto &surface : surfaces)
+      surface->move(std::vector<dealii::Tensor<1, dim>>(surface->surface.n_vertices()), 0.);
+    for (auto &half : passes)
+      {
+        // what is deeper than the samples take must be seen as well
+        const FacetSearch<dim> search(half.other.mesh, half.box_of_samples());
+        for (unsigned int f = 0; f < half.sampled.mesh.facets.size(); ++f)
+          {
+            const auto         corners = half.sampled.mesh.corners(f);
+            const auto         area    = area_vector<dim>(corners);
+            dealii::Point<dim> x;
+            for (const auto &corner : corners)
+              x += corner / dim;
+            typename FacetSearch<dim>::Partner partner;
+            if (!search.find(x, area / area.norm(), 2. * cell_size, search.no_facet, partner) ||
+                partner.gap >= -largest_overlap * cell_size)
+              continue;
+            std::ostringstream message;
+            message << "Contact '" << parameters.name << "': bodies '"
+                    << half.sampled.surface.body_name << "' and '" << half.other.surface.body_name
+                    << "' overlap by " << -partner.gap << " m at (" << x
+                    << "), which is more than half a cell. Move them apart (Bodies/"
+                    << half.sampled.surface.body_name << "/Geometry).";
+            throw UserError(message.str());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::start(Trial<dim> &trial)
+  {
+    n_passes = n_updates = 0;
+    for (auto &surface : surfaces)
+      {
+        std::vector<dealii::Tensor<1, dim>> predicted(surface->surface.n_vertices());
+        if (scheme.dynamic)
+          surface->surface.interpolate(trial.motion[surface->surface.field].velocity_n, predicted);
+        for (auto &u : predicted)
+          u *= trial.times.dt;
+        surface->move(predicted, alpha);
+      }
+    for (auto &half : passes)
+      half.find();
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::touches() const
+  {
+    for (const auto &half : passes)
+      if (!half.samples().empty())
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::move_surfaces(const Trial<dim> &trial)
+  {
+    std::vector<dealii::Tensor<1, dim>> displacements;
+    for (auto &surface : surfaces)
+      {
+        surface->surface.interpolate(trial.displacement(surface->surface.field), displacements);
+        surface->move(displacements, alpha);
+      }
+  }
+
+
+
+  template <int dim>
+  Answer
+  ContactTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
+  {
+    if (!touches())
+      return {};
+    move_surfaces(trial);
+    for (const auto &half : passes)
+      {
+        if (half.samples().empty())
+          continue;
+        const BodySurface<dim> &sampled = half.sampled.surface, &other = half.other.surface;
+        Forces                  on_sampled(sampled.n_vertices()), on_other(other.n_vertices());
+        for (const auto &sample : half.samples())
+          {
+            const dealii::Tensor<1, dim> force = sample.area * half.response(sample).traction;
+            for (const unsigned int v : sampled.mesh().facets[sample.facet])
+              on_sampled[v] -= force / dim;
+            for (int i = 0; i < dim; ++i)
+              on_other[other.mesh().facets[sample.partner.facet][i]] +=
+                sample.partner.weights[i] * force;
+          }
+        for (unsigned int v = 0; v < on_sampled.size(); ++v)
+          if (on_sampled[v] != dealii::Tensor<1, dim>())
+            sampled.add_force(v, on_sampled[v], residual.partial(sampled.field));
+        for (unsigned int v = 0; v < on_other.size(); ++v)
+          if (on_other[v] != dealii::Tensor<1, dim>())
+            other.add_force(v, on_other[v], residual.partial(other.field));
+      }
+    return {};
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
+  {
+    if (!touches())
+      return;
+    move_surfaces(trial);
+    CouplingSum<dim> sum;
+    for (const auto &half : passes)
+      for (const auto &sample : half.samples())
+        {
+          const ContactResponse<dim> response = half.response(sample);
+          if (response.slope == dealii::Tensor<2, dim>())
+            continue;
+          typename CouplingSum<dim>::Coefficients coefficients;
+          const auto                              add =
+            [&](const BodySurface<dim> &surface, const unsigned int v, const double c) {
+              surface.for_nodes(v, [&](const unsigned int node, const double N) {
+                coefficients[{surface.field, node}] += c * N;
+              });
+            };
+          const BodySurface<dim> &sampled = half.sampled.surface, &other = half.other.surface;
+          for (const unsigned int v : sampled.mesh().facets[sample.facet])
+            add(sampled, v, 1. / dim);
+          for (int i = 0; i < dim; ++i)
+            add(other, other.mesh().facets[sample.partner.facet][i], -sample.partner.weights[i]);
+          sum.add(coefficients, -sample.area * response.slope);
+        }
+    sum.add_to(tangent);
+  }
+
+
+
+  /** Of each half, by sampled facet. */
+  template <int dim>
+  std::vector<typename ContactTerm<dim>::Forces>
+  ContactTerm<dim>::sample_forces() const
+  {
+    std::vector<Forces> forces;
+    for (const auto &half : passes)
+      {
+        forces.emplace_back(half.sampled.surface.n_facets());
+        for (const auto &sample : half.samples())
+          forces.back()[sample.facet] = sample.area * half.response(sample).traction;
+      }
+    return forces;
+  }
+
+
+
+  /** Finds the samples anew; keeps those before if the forces are nearly the same. */
+  template <int dim>
+  bool
+  ContactTerm<dim>::directions_have_changed()
+  {
+    const std::vector<Forces>                                      before = sample_forces();
+    std::vector<std::vector<typename SurfaceSamples<dim>::Sample>> samples(passes.size());
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      {
+        const auto multipliers = passes[k].multipliers();
+        passes[k].exchange(samples[k]); // empty
+        passes[k].find();
+        passes[k].set_multipliers(multipliers);
+      }
+    const std::vector<Forces> after = sample_forces();
+    double                    size = 0., change = 0.;
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      for (std::size_t f = 0; f < before[k].size(); ++f)
+        {
+          size += std::max(before[k][f].norm(), after[k][f].norm());
+          change += (after[k][f] - before[k][f]).norm();
+        }
+    if (change > small_change * size)
+      return true;
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      passes[k].exchange(samples[k]);
+    return false;
+  }
+
+
+
+  /** Uzawa's step; false if all closed samples have small gaps. */
+  template <int dim>
+  bool
+  ContactTerm<dim>::update_multipliers()
+  {
+    double                                      largest = 0.; // violation [m]
+    std::vector<std::map<unsigned int, double>> pressures;
+    for (const auto &half : passes)
+      {
+        pressures.emplace_back();
+        for (const auto &sample : half.samples())
+          {
+            const double p = half.response(sample).pressure;
+            largest =
+              std::max(largest, std::abs(p - sample.multiplier) / half.law.normal_stiffness);
+            if (p > 0.)
+              pressures.back()[sample.facet] = p;
+          }
+      }
+    if (largest <= smallest_gap * cell_size || n_updates == most_updates)
+      return false;
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      passes[k].set_multipliers(pressures[k]);
+    ++n_updates;
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactTerm<dim>::refresh(const Trial<dim> &trial)
+  {
+    move_surfaces(trial);
+    bool again = false;
+    if (n_passes < most_passes && directions_have_changed())
+      {
+        ++n_passes;
+        again = true;
+      }
+    if (!scheme.dynamic)
+      again = update_multipliers() || again;
+    return again;
+  }
+
+
+
+  template <int dim>
+  Answer
+  ContactTerm<dim>::finish(const Trial<dim> &trial)
+  {
+    move_surfaces(trial);
+    released = 0.;
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      {
+        const auto &half = passes[k];
+        for (const auto &sample : half.samples())
+          {
+            const auto   end     = half.outcome(sample);
+            const double overlap = -std::min(end.true_gap, end.response.gap_end);
+            if (overlap <= largest_overlap * cell_size)
+              continue;
+            std::ostringstream cause;
+            cause << name() << ": bodies '" << half.sampled.surface.body_name << "' and '"
+                  << half.other.surface.body_name << "' would overlap by " << overlap << " m at ("
+                  << half.place(sample) << "), more than half a cell; stiffen the contact ("
+                  << "Contact/" << parameters.name << "/Penalty factor) or refine the grid";
+            return Answer::failure(cause.str());
+          }
+        double stored  = 0.;
+        end_of_step[k] = half.memory_of_step(stored);
+        // committed less taken up by samples; and at the end what samples had less what is kept
+        released += half.stored() - half.stored_at_start() + stored;
+        released -= half.stored_of(end_of_step[k]);
+      }
+    return {};
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  {
+    ledger.book(columns.released, released);
+    double area = 0., pressure = 0., overlap = 0., friction = 0.;
+    double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      for (const auto &sample : passes[k].samples())
+        {
+          const auto end = passes[k].outcome(sample);
+          friction += sample.area * end.response.dissipation;
+          overlap = std::max(overlap, -end.response.gap_end);
+          if (!(end.response.pressure > 0.))
+            continue;
+          pressure = std::max(pressure, end.response.pressure);
+          area += sample.area;
+          // on the first body, where that one is: in the configuration of the balance
+          const bool                   first = k % 2 == 0;
+          const dealii::Tensor<1, dim> f = (first ? 1. : -1.) * sample.area * end.response.traction;
+          const dealii::Point<dim>     x =
+            first ? passes[k].place_at_balance(sample) : passes[k].partner_at_balance(sample);
+          double arm[3] = {0, 0, 0}, on[3] = {0, 0, 0};
+          for (int d = 0; d < dim; ++d)
+            {
+              arm[d] = x[d];
+              on[d]  = f[d];
+            }
+          for (int d = 0; d < 3; ++d)
+            {
+              force[d] += on[d];
+              moment[d] += arm[(d + 1) % 3] * on[(d + 2) % 3] - arm[(d + 2) % 3] * on[(d + 1) % 3];
+            }
+        }
+    ledger.book(columns.friction, friction);
+    ledger.book(columns.area, area);
+    ledger.book(columns.pressure, pressure);
+    ledger.book(columns.overlap, overlap);
+    ledger.book(columns.duration, area > 0. ? trial.times.dt : 0.);
+    for (int d = 0; d < dim; ++d)
+      ledger.book(columns.force[d], force[d]);
+    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
+      ledger.book(columns.moment[d], moment[d]);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::commit(const Trial<dim> &, MaterialPoints<dim> &)
+  {
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      passes[k].commit(std::move(end_of_step[k]));
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &ledger) const
+  {
+    for (const auto &half : passes)
+      ledger.book(columns.energy, half.stored());
+    for (const Ledger::Index extreme : {columns.pressure, columns.overlap})
+      ledger.book(extreme, 0.); // of states without a step before them
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::save(SavedState &state) const
+  {
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      state[name() + " " + std::to_string(k)] = passes[k].save();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::restore(const SavedState &state)
+  {
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      passes[k].restore(state.at(name() + " " + std::to_string(k)), scheme.dynamic);
+  }
+
+  template class ContactTerm<2>;
+  template class ContactTerm<3>;
+} // namespace kedge

@@ -1,0 +1,212 @@
+#include <kedge/surfaces/body_surface.h>
+
+namespace kedge
+{
+  template <int dim>
+  void
+  BodySurface<dim>::seed(const SurfaceMesh<dim> &seeded)
+  {
+    mesh_ = seeded;
+    reference_areas.clear();
+    for (unsigned int f = 0; f < n_facets(); ++f)
+      reference_areas.push_back(area_vector<dim>(mesh_.corners(f)).norm());
+  }
+
+
+
+  /** How much of each cell of the window the body's points fill, in cells. */
+  template <int dim>
+  std::vector<double>
+  BodySurface<dim>::fillings() const
+  {
+    const auto         &lattice     = patch.grid().lattice();
+    const auto         &window      = patch.window();
+    double              cell_volume = 1.;
+    std::vector<double> result(window.n_cells_total(), 0.);
+    for (int d = 0; d < dim; ++d)
+      cell_volume *= lattice.h[d];
+    const auto &points = patch.points;
+    for (const auto &batch : points.batches)
+      if (batch.body == body)
+        for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+          result[window.cell_number(lattice.cell_of(points.location[slot]))] +=
+            points.volume[slot] * points.determinant[slot] / cell_volume;
+    return result;
+  }
+
+
+
+  template <int dim>
+  LatticeIndex<dim>
+  BodySurface<dim>::root_cell(const dealii::Point<dim> &x, const std::vector<double> &filling) const
+  {
+    const auto             &lattice = patch.grid().lattice();
+    const auto             &window  = patch.window();
+    const LatticeIndex<dim> here    = lattice.cell_of(x);
+    LatticeIndex<dim>       nearest = here, fullest = here;
+    double                  least = std::numeric_limits<double>::max(), most = 0.;
+    constexpr int           width = 2 * search_radius + 1;
+    unsigned int            n     = 1;
+    for (int d = 0; d < dim; ++d)
+      n *= width;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        LatticeIndex<dim> cell;
+        unsigned int      rest = k;
+        for (int d = 0; d < dim; ++d, rest /= width)
+          cell[d] = here[d] + static_cast<int>(rest % width) - search_radius;
+        if (!window.contains_cell(cell))
+          continue;
+        const double full = filling[window.cell_number(cell)];
+        if (full > most)
+          {
+            most    = full;
+            fullest = cell;
+          }
+        if (full < well_filled * (1. - 1e-9))
+          continue;
+        double outside = 0., from_centre = 0.; // squares of distances, in cells
+        for (int d = 0; d < dim; ++d)
+          {
+            const double s = lattice.scaled(x[d], d) - cell[d];
+            outside += std::pow(std::max({-s, 0., s - 1.}), 2);
+            from_centre += (s - 0.5) * (s - 0.5);
+          }
+        // of cells that touch in x the one whose centre is nearest
+        const double distance = std::sqrt(outside) + 1e-3 * std::sqrt(from_centre);
+        if (distance < least)
+          {
+            least   = distance;
+            nearest = cell;
+          }
+      }
+    AssertThrow(most > 0.,
+                dealii::ExcMessage("The surface of body '" + body_name +
+                                   "' has come away from its material points."));
+    return least < std::numeric_limits<double>::max() ? nearest : fullest;
+  }
+
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::find_roots()
+  {
+    const auto                          &lattice = patch.grid().lattice();
+    const auto                          &window  = patch.window();
+    const std::vector<double>            filling = fillings();
+    std::map<unsigned int, unsigned int> number_of_cell;
+    roots.clear();
+    root_of_vertex.resize(n_vertices());
+    weights.resize(n_vertices());
+    for (unsigned int v = 0; v < n_vertices(); ++v)
+      {
+        const dealii::Point<dim> &x    = mesh_.vertices[v];
+        const LatticeIndex<dim>   cell = root_cell(x, filling);
+        const auto [entry, is_new] =
+          number_of_cell.emplace(window.cell_number(cell), static_cast<unsigned int>(roots.size()));
+        root_of_vertex[v] = entry->second;
+        if (is_new)
+          roots.emplace_back();
+        for (unsigned int c = 0; c < n_corners; ++c)
+          {
+            LatticeIndex<dim> node   = cell;
+            double            weight = 1.;
+            for (int d = 0; d < dim; ++d)
+              {
+                const double s  = lattice.scaled(x[d], d) - cell[d];
+                const bool   up = (c >> d) & 1u;
+                node[d] += up;
+                weight *= up ? s : 1. - s;
+              }
+            weights[v][c] = weight;
+            if (is_new)
+              {
+                const int local = patch.nodes.local(window.node_number(node));
+                AssertThrow(local >= 0, dealii::ExcInternalError());
+                roots.back()[c] = static_cast<unsigned int>(local);
+              }
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::interpolate(const std::vector<double>           &nodal,
+                                std::vector<dealii::Tensor<1, dim>> &at_vertices) const
+  {
+    at_vertices.assign(n_vertices(), dealii::Tensor<1, dim>());
+    for (unsigned int v = 0; v < n_vertices(); ++v)
+      for_nodes(v, [&](const unsigned int node, const double N) {
+        for (int d = 0; d < dim; ++d)
+          at_vertices[v][d] += N * nodal[std::size_t(node) * dim + d];
+      });
+  }
+
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::add_force(const unsigned int            vertex,
+                              const dealii::Tensor<1, dim> &force,
+                              std::vector<double>          &sums) const
+  {
+    const std::size_t n_components = patch.n_components();
+    for_nodes(vertex, [&](const unsigned int node, const double N) {
+      for (int d = 0; d < dim; ++d)
+        sums[node * n_components + d] += N * force[d];
+    });
+  }
+
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::commit(const std::vector<dealii::Tensor<1, dim>> &displacements)
+  {
+    for (unsigned int v = 0; v < n_vertices(); ++v)
+      mesh_.vertices[v] += displacements[v];
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  BodySurface<dim>::save() const
+  {
+    std::vector<double> result = {double(n_vertices()), double(n_facets())};
+    for (const auto &x : mesh_.vertices)
+      result.insert(result.end(), x.begin_raw(), x.end_raw());
+    for (const auto &facet : mesh_.facets)
+      result.insert(result.end(), facet.begin(), facet.end());
+    result.insert(result.end(), reference_areas.begin(), reference_areas.end());
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::restore(const std::vector<double> &saved)
+  {
+    AssertThrow(saved.size() >= 2, dealii::ExcInternalError());
+    mesh_.vertices.resize(static_cast<std::size_t>(saved[0]));
+    mesh_.facets.resize(static_cast<std::size_t>(saved[1]));
+    reference_areas.resize(mesh_.facets.size());
+    AssertDimension(saved.size(), 2 + dim * n_vertices() + (dim + 1) * n_facets());
+    auto next = saved.begin() + 2;
+    for (auto &x : mesh_.vertices)
+      for (int d = 0; d < dim; ++d)
+        x[d] = *next++;
+    for (auto &facet : mesh_.facets)
+      for (unsigned int &vertex : facet)
+        vertex = static_cast<unsigned int>(*next++);
+    for (double &area : reference_areas)
+      area = *next++;
+  }
+
+  template class BodySurface<2>;
+  template class BodySurface<3>;
+} // namespace kedge

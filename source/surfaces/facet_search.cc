@@ -1,0 +1,288 @@
+#include <kedge/surfaces/facet_search.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace kedge
+{
+  namespace
+  {
+    /** Surfaces look towards each other if the cosine between their normals is below this. */
+    constexpr double largest_cosine = -0.05;
+
+    template <int dim>
+    dealii::BoundingBox<dim>
+    box_of(const std::array<dealii::Point<dim>, dim> &corners)
+    {
+      dealii::Point<dim> lower = corners[0], upper = corners[0];
+      for (const auto &corner : corners)
+        for (int d = 0; d < dim; ++d)
+          {
+            lower[d] = std::min(lower[d], corner[d]);
+            upper[d] = std::max(upper[d], corner[d]);
+          }
+      return dealii::BoundingBox<dim>({lower, upper});
+    }
+
+    using Region = FacetPoint<3>::Region;
+
+    /** Of a triangle a, b, c: the regions of its vertices, edges and face, one after the other. */
+    FacetPoint<3>
+    closest_on_triangle(const std::array<dealii::Point<3>, 3> &t, const dealii::Point<3> &x)
+    {
+      const dealii::Tensor<1, 3> ab = t[1] - t[0], ac = t[2] - t[0];
+      const dealii::Tensor<1, 3> ax = x - t[0], bx = x - t[1], cx = x - t[2];
+      const double               d1 = ab * ax, d2 = ac * ax, d3 = ab * bx, d4 = ac * bx;
+      const double               d5 = ab * cx, d6 = ac * cx;
+      const auto                 at_vertex = [](const unsigned int i) {
+        FacetPoint<3> result{Region::vertex, {{0., 0., 0.}}, 0., {{i, i}}};
+        result.weights[i] = 1.;
+        return result;
+      };
+      const auto on_edge = [](const unsigned int i, const unsigned int j, const double s) {
+        FacetPoint<3> result{Region::edge, {{0., 0., 0.}}, 0., {{i, j}}};
+        result.weights[i] = 1. - s;
+        result.weights[j] = s;
+        return result;
+      };
+      if (d1 <= 0. && d2 <= 0.)
+        return at_vertex(0);
+      if (d3 >= 0. && d4 <= d3)
+        return at_vertex(1);
+      const double vc = d1 * d4 - d3 * d2;
+      if (vc <= 0. && d1 >= 0. && d3 <= 0.)
+        return on_edge(0, 1, d1 / (d1 - d3));
+      if (d6 >= 0. && d5 <= d6)
+        return at_vertex(2);
+      const double vb = d5 * d2 - d1 * d6;
+      if (vb <= 0. && d2 >= 0. && d6 <= 0.)
+        return on_edge(0, 2, d2 / (d2 - d6));
+      const double va = d3 * d6 - d5 * d4;
+      if (va <= 0. && d4 - d3 >= 0. && d5 - d6 >= 0.)
+        return on_edge(1, 2, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
+      const double sum = va + vb + vc;
+      return {Region::face, {{va / sum, vb / sum, vc / sum}}, 0., {{0, 0}}};
+    }
+
+    FacetPoint<2>
+    closest_on_line(const std::array<dealii::Point<2>, 2> &line, const dealii::Point<2> &x)
+    {
+      using Region2                    = FacetPoint<2>::Region;
+      const dealii::Tensor<1, 2> along = line[1] - line[0];
+      const double               s     = (x - line[0]) * along / along.norm_square();
+      if (s <= 0.)
+        return {Region2::vertex, {{1., 0.}}, 0., {{0, 0}}};
+      if (s >= 1.)
+        return {Region2::vertex, {{0., 1.}}, 0., {{1, 1}}};
+      return {Region2::face, {{1. - s, s}}, 0., {{0, 0}}};
+    }
+
+    std::pair<unsigned int, unsigned int>
+    edge_between(const unsigned int a, const unsigned int b)
+    {
+      return {std::min(a, b), std::max(a, b)};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  FacetPoint<dim>
+  closest_on_facet(const std::array<dealii::Point<dim>, dim> &corners, const dealii::Point<dim> &x)
+  {
+    FacetPoint<dim> result;
+    if constexpr (dim == 2)
+      result = closest_on_line(corners, x);
+    else
+      result = closest_on_triangle(corners, x);
+    dealii::Tensor<1, dim> off = x;
+    for (int i = 0; i < dim; ++i)
+      off -= result.weights[i] * corners[i];
+    result.distance = off.norm();
+    return result;
+  }
+
+
+
+  template <int dim>
+  class FacetSearch<dim>::Tree
+  {
+  public:
+    using Entry = std::pair<dealii::BoundingBox<dim>, unsigned int>;
+
+    explicit Tree(const std::vector<Entry> &facets)
+      : tree(dealii::pack_rtree(facets))
+    {}
+
+    dealii::RTree<Entry> tree;
+  };
+
+
+
+  template <int dim>
+  FacetSearch<dim>::FacetSearch(const SurfaceMesh<dim>         &mesh,
+                                const dealii::BoundingBox<dim> &region)
+    : mesh(mesh)
+  {
+    std::vector<typename Tree::Entry> found;
+    for (unsigned int f = 0; f < mesh.facets.size(); ++f)
+      {
+        const auto box = box_of<dim>(mesh.corners(f));
+        if (boost::geometry::intersects(box, region))
+          found.emplace_back(box, f);
+      }
+    n_found = static_cast<unsigned int>(found.size());
+    if (empty())
+      return;
+    tree = std::make_unique<Tree>(found);
+    find_normals();
+  }
+
+
+
+  template <int dim>
+  void
+  FacetSearch<dim>::find_normals()
+  {
+    normals.resize(mesh.facets.size());
+    vertex_normals.resize(mesh.vertices.size());
+    for (unsigned int f = 0; f < mesh.facets.size(); ++f)
+      {
+        const auto corners = mesh.corners(f);
+        normals[f]         = area_vector<dim>(corners);
+        const double area  = normals[f].norm();
+        if (!(area > 0.))
+          continue;
+        normals[f] /= area;
+        for (int i = 0; i < dim; ++i)
+          {
+            double weight = 1.; // in 2D neighbours count alike
+            if constexpr (dim == 3)
+              {
+                const auto a = corners[(i + 1) % 3] - corners[i],
+                           b = corners[(i + 2) % 3] - corners[i];
+                weight       = std::atan2(cross_product_3d(a, b).norm(), a * b);
+                auto &edge =
+                  edge_normals[edge_between(mesh.facets[f][i], mesh.facets[f][(i + 1) % 3])];
+                edge.sum += normals[f];
+                edge.facets.push_back(f);
+              }
+            auto &vertex = vertex_normals[mesh.facets[f][i]];
+            vertex.sum += weight * normals[f];
+            vertex.facets.push_back(f);
+          }
+      }
+    for (auto &vertex : vertex_normals)
+      find_mean(vertex);
+    for (auto &edge : edge_normals)
+      find_mean(edge.second);
+  }
+
+
+
+  template <int dim>
+  void
+  FacetSearch<dim>::find_mean(MeanNormal &mean) const
+  {
+    const double size = mean.sum.norm();
+    mean.is_sharp     = !(size > 0.);
+    if (mean.is_sharp)
+      return;
+    mean.sum /= size;
+    for (const unsigned int f : mean.facets)
+      mean.is_sharp = mean.is_sharp || mean.sum * normals[f] < sharp;
+  }
+
+
+
+  template <int dim>
+  FacetSearch<dim>::~FacetSearch() = default;
+
+
+
+  template <int dim>
+  const typename FacetSearch<dim>::MeanNormal &
+  FacetSearch<dim>::mean_at(const unsigned int facet, const FacetPoint<dim> &place) const
+  {
+    const auto &vertices = mesh.facets[facet];
+    if (place.region == FacetPoint<dim>::Region::vertex)
+      return vertex_normals[vertices[place.corners[0]]];
+    return edge_normals.at(edge_between(vertices[place.corners[0]], vertices[place.corners[1]]));
+  }
+
+
+
+  template <int dim>
+  bool
+  FacetSearch<dim>::find(const dealii::Point<dim>     &x,
+                         const dealii::Tensor<1, dim> &outward,
+                         const double                  reach,
+                         const unsigned int            previous,
+                         Partner                      &partner) const
+  {
+    if (empty())
+      return false;
+    dealii::Point<dim> lower = x, upper = x;
+    for (int d = 0; d < dim; ++d)
+      {
+        lower[d] -= reach;
+        upper[d] += reach;
+      }
+    std::vector<unsigned int> near;
+    for (const auto &entry :
+         tree->tree | boost::geometry::index::adaptors::queried(boost::geometry::index::intersects(
+                        dealii::BoundingBox<dim>({lower, upper}))))
+      near.push_back(entry.second);
+    std::sort(near.begin(), near.end()); // the answer does not depend on the tree's order
+
+    double          least = reach;
+    FacetPoint<dim> best{};
+    unsigned int    best_facet = no_facet;
+    for (const unsigned int f : near)
+      {
+        if (!(normals[f] * outward < largest_cosine))
+          continue;
+        const auto            corners  = mesh.corners(f);
+        const FacetPoint<dim> place    = closest_on_facet<dim>(corners, x);
+        double                distance = place.distance;
+        if (f == previous)
+          distance -= hysteresis * (corners[1] - corners[0]).norm();
+        if (distance < least)
+          {
+            least      = distance;
+            best       = place;
+            best_facet = f;
+          }
+      }
+    if (best_facet == no_facet)
+      return false;
+    partner.normal = normals[best_facet];
+    if (best.region != FacetPoint<dim>::Region::face)
+      {
+        const MeanNormal &mean = mean_at(best_facet, best);
+        if (mean.is_sharp)
+          return false;
+        partner.normal = mean.sum;
+      }
+    const auto             corners = mesh.corners(best_facet);
+    dealii::Tensor<1, dim> off     = x;
+    for (int i = 0; i < dim; ++i)
+      off -= best.weights[i] * corners[i];
+    partner.facet   = best_facet;
+    partner.weights = best.weights;
+    partner.gap     = std::copysign(best.distance, off * partner.normal);
+    return true;
+  }
+
+  template struct FacetPoint<2>;
+  template struct FacetPoint<3>;
+  template FacetPoint<2>
+  closest_on_facet<2>(const std::array<dealii::Point<2>, 2> &, const dealii::Point<2> &);
+  template FacetPoint<3>
+  closest_on_facet<3>(const std::array<dealii::Point<3>, 3> &, const dealii::Point<3> &);
+  template class FacetSearch<2>;
+  template class FacetSearch<3>;
+} // namespace kedge
