@@ -65,12 +65,7 @@ namespace kedge
     for (const auto *field : fields)
       width += n_values(field->shape);
     std::vector<double> sums(std::size_t(patch.nodes.n_local()) * width, 0.);
-    add_scalars_to_nodes(patch.points,
-                         patch.window(),
-                         patch.nodes,
-                         weighted_values(patch.points, records, fields, width),
-                         width,
-                         sums);
+    add_scalars_to_nodes(patch, weighted_values(patch.points, records, fields, width), width, sums);
     patch.nodes.add_to_owners(sums, width);
     patch.nodes.update_ghosts(sums, width);
 

@@ -228,7 +228,7 @@ TEST(IoCheckpointMpi, AnotherNumberOfRanks)
   if (rank() != 0 || make_data<2>(0).n_ranks == 1)
     return; // two ranks wrote, one reads
   const RunFolder alone(scratch.path(), RunFolder::Mode::resume, MPI_COMM_SELF);
-  const auto      data = CheckpointStore<2>(alone).read_latest("scene-1");
+  const auto      data = CheckpointStore<2>(alone).read_latest(make_data<2>(0).settings);
   EXPECT_EQ(data.n_ranks, 2u);
   EXPECT_EQ(data.scalars.at("time"), 1.);
   std::set<std::uint64_t> ids;
