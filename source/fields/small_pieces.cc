@@ -205,62 +205,85 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** The least node of the piece of each node; joins what the points of any rank join
+     * (collective). */
+    std::vector<unsigned int>
+    least_nodes(UnionOfNodes &sets, const unsigned int n, const MPI_Comm communicator)
+    {
+      const bool                alone = dealii::Utilities::MPI::n_mpi_processes(communicator) == 1;
+      std::vector<unsigned int> least(n);
+      for (bool changed = true; changed;)
+        {
+          for (unsigned int node = 0; node < n; ++node)
+            least[node] = sets.find(node);
+          if (alone)
+            return least;
+          const std::vector<unsigned int> own = least;
+          MPI_Allreduce(MPI_IN_PLACE,
+                        least.data(),
+                        static_cast<int>(n),
+                        MPI_UNSIGNED,
+                        MPI_MIN,
+                        communicator);
+          for (unsigned int node = 0; node < n; ++node)
+            sets.join(node, least[node]);
+          changed = dealii::Utilities::MPI::logical_or(own != least, communicator);
+        }
+      return least;
+    }
+
+    /** Numbers the pieces in the order of their least nodes. */
+    Pieces
+    number_pieces(const std::vector<unsigned char> &reached, const std::vector<unsigned int> &least)
+    {
+      Pieces                    result{std::vector<unsigned int>(reached.size(), Pieces::none), {}};
+      std::vector<unsigned int> number(reached.size(), Pieces::none); // of a least node
+      for (unsigned int node = 0; node < reached.size(); ++node)
+        if (reached[node])
+          {
+            if (number[least[node]] == Pieces::none)
+              {
+                number[least[node]] = static_cast<unsigned int>(result.n_points.size());
+                result.n_points.push_back(0);
+              }
+            result.of_node[node] = number[least[node]];
+          }
+      return result;
+    }
+  } // namespace
+
+
+
   template <int dim>
   Pieces
   find_pieces(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points)
   {
-    const auto         strides = grid.window().node_strides();
-    const unsigned int n       = grid.window().n_nodes_total();
-    const bool         alone   = dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) == 1;
-    UnionOfNodes       sets(n);
+    const auto                 strides = grid.window().node_strides();
+    const unsigned int         n       = grid.window().n_nodes_total();
+    UnionOfNodes               sets(n);
     std::vector<unsigned char> reached(n, 0);
     for (unsigned int slot = 0; slot < points.size(); ++slot)
-      for_nodes<dim>(points.stencil[slot], strides, [&](const unsigned int node) {
-        reached[node] = 1;
-        sets.join(points.stencil[slot].first_node, node);
-      });
-    if (!alone)
-      MPI_Allreduce(MPI_IN_PLACE,
-                    reached.data(),
-                    static_cast<int>(n),
-                    MPI_UNSIGNED_CHAR,
-                    MPI_MAX,
-                    grid.communicator());
-    // sets of one rank grow together where another's points join them
-    std::vector<unsigned int> least(n);
-    for (bool changed = true; changed;)
       {
-        for (unsigned int node = 0; node < n; ++node)
-          least[node] = sets.find(node);
-        if (alone)
-          break;
-        const std::vector<unsigned int> own = least;
-        MPI_Allreduce(MPI_IN_PLACE,
-                      least.data(),
-                      static_cast<int>(n),
-                      MPI_UNSIGNED,
-                      MPI_MIN,
-                      grid.communicator());
-        for (unsigned int node = 0; node < n; ++node)
-          sets.join(node, least[node]);
-        changed = dealii::Utilities::MPI::logical_or(own != least, grid.communicator());
+        unsigned int first = Pieces::none;
+        for_nodes<dim>(points.stencil[slot], strides, [&](const unsigned int node) {
+          reached[node] = 1;
+          first         = first == Pieces::none ? node : first;
+          sets.join(first, node);
+        });
       }
-
-    Pieces result{std::vector<unsigned int>(n, Pieces::none), {}};
-    for (unsigned int node = 0; node < n; ++node)
-      if (reached[node])
-        {
-          unsigned int &of_set = result.of_node[least[node]];
-          if (of_set == Pieces::none)
-            {
-              of_set = static_cast<unsigned int>(result.n_points.size());
-              result.n_points.push_back(0);
-            }
-          result.of_node[node] = of_set;
-        }
-    for (unsigned int node = 0; node < n; ++node)
-      if (!reached[node])
-        result.of_node[node] = Pieces::none;
+    const auto sum_up = [&](auto &values, const MPI_Datatype type, const MPI_Op operation) {
+      if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+        MPI_Allreduce(MPI_IN_PLACE,
+                      values.data(),
+                      static_cast<int>(values.size()),
+                      type,
+                      operation,
+                      grid.communicator());
+    };
+    sum_up(reached, MPI_UNSIGNED_CHAR, MPI_MAX);
+    Pieces result = number_pieces(reached, least_nodes(sets, n, grid.communicator()));
     for (unsigned int slot = 0; slot < points.size(); ++slot)
       {
         unsigned int piece = Pieces::none;
@@ -269,13 +292,7 @@ namespace kedge
         });
         ++result.n_points[piece];
       }
-    if (!alone)
-      MPI_Allreduce(MPI_IN_PLACE,
-                    result.n_points.data(),
-                    static_cast<int>(result.n_points.size()),
-                    MPI_UNSIGNED,
-                    MPI_SUM,
-                    grid.communicator());
+    sum_up(result.n_points, MPI_UNSIGNED, MPI_SUM);
     return result;
   }
 

@@ -67,6 +67,201 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** The state of balance and what the rows of a PoreResponse share. */
+    template <int dim>
+    struct Balance
+    {
+      Pack G[dim][dim], G_end[dim][dim]; ///< inverse dF at balance and at the end
+      Pack excess, excess_end;           ///< det dF - 1 there
+      Pack J, phi, n;                    ///< determinant, pores per V0, porosity
+      Pack rho, mobility;                ///< of the fluid
+      Pack K;                            ///< V J mobility dt/rho_0
+      Pack push[dim];                    ///< a - f
+      Pack gradient[dim], w[dim]; ///< grad p, and what drives the flow: grad p - rho_f (f - a)
+      Pack Gw[dim];               ///< w as a factor of gradients by x_n
+      Pack J_end, rho_end;        ///< at the end
+    };
+
+    template <int dim>
+    inline void
+    find_kinematics(const PoreStep<dim> &step, const PoreTrial<dim> &trial, Balance<dim> &b)
+    {
+      Pack at[dim][dim];
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          at[i][j] = step.alpha * trial.displacement[i][j];
+      b.excess     = invert<dim>(at, b.G);
+      b.excess_end = invert<dim>(trial.displacement, b.G_end);
+    }
+
+    inline Pack
+    density(const PoreFluid &fluid, const Pack &pressure)
+    {
+      return in_lanes(pressure, [&fluid](const double x) {
+        return fluid.density(x);
+      });
+    }
+
+    /** The fluid and its flow at balance. */
+    template <int dim>
+    inline void
+    find_flow(const PoreStep<dim> &step, const PoreTrial<dim> &trial, Balance<dim> &b)
+    {
+      const PoreFluid &fluid  = step.soil.fluid;
+      const double     grains = 1. - fluid.initial_porosity;
+      b.J                     = trial.determinant * (1. + b.excess);
+      b.phi                   = b.J - grains;
+      b.rho                   = density(fluid, trial.pressure);
+      b.n                     = 1. - grains / b.J;
+      b.mobility              = in_lanes(b.n, [&](const double x) {
+        return fluid.mass_mobility(x);
+      });
+      b.K                     = trial.volume * b.J * b.mobility * step.dt / fluid.reference_density;
+      for (int i = 0; i < dim; ++i)
+        {
+          b.push[i]     = trial.acceleration[i] - step.acceleration[i];
+          b.gradient[i] = 0.;
+          for (int R = 0; R < dim; ++R)
+            b.gradient[i] += trial.pressure_gradient[R] * b.G[R][i];
+          b.w[i] = b.gradient[i] + b.rho * b.push[i];
+        }
+      pull_back<dim>(b.G, b.w, b.Gw);
+    }
+
+    /** Pressure and content of fluid at the end of the step. */
+    template <int dim>
+    inline void
+    find_end(const PoreStep<dim>  &step,
+             const PoreTrial<dim> &trial,
+             Balance<dim>         &b,
+             PoreResponse<dim>    &r)
+    {
+      const PoreFluid &fluid = step.soil.fluid;
+      r.end_pressure = trial.pressure_n + (trial.pressure - trial.pressure_n) / step.scheme.theta;
+      b.J_end        = trial.determinant * (1. + b.excess_end);
+      r.end_determinant = b.J_end;
+      const Pack phi_n  = trial.determinant - (1. - fluid.initial_porosity);
+      b.rho_end         = density(fluid, r.end_pressure);
+      const Pack rho_grown =
+        density(fluid, trial.pressure_n) *
+        in_lanes((r.end_pressure - trial.pressure_n) / fluid.bulk_modulus, [](const double x) {
+          return std::expm1(x);
+        });
+      r.content_increment = b.rho_end * trial.determinant * b.excess_end + phi_n * rho_grown;
+    }
+
+    /** Rows of momentum and of the fluid. */
+    template <int dim>
+    inline void
+    find_residual(const ForceStress<dim, Pack> &stress,
+                  const PoreStep<dim>          &step,
+                  const PoreTrial<dim>         &trial,
+                  const Balance<dim>           &b,
+                  PoreResponse<dim>            &r)
+    {
+      const PoreFluid &fluid = step.soil.fluid;
+      const Pack       V = trial.volume, Jp = V * b.J * trial.pressure;
+      r.mass     = V * (step.soil.grain_density * (1. - fluid.initial_porosity) + b.rho * b.phi);
+      Pack power = 0., flow_work = 0.;
+      for (int i = 0; i < dim; ++i)
+        {
+          r.momentum_value[i] = r.mass * b.push[i];
+          for (int R = 0; R < dim; ++R)
+            r.momentum_gradient[i][R] = V * stress.stress[i][R] - Jp * b.G[R][i];
+          r.darcy_velocity[i] = -b.mobility / b.rho * b.w[i];
+          power -= r.darcy_velocity[i] * b.w[i];
+          flow_work -= b.rho * b.push[i] * r.darcy_velocity[i];
+        }
+      r.darcy_power    = b.J * power;
+      r.flow_work_rate = b.J * flow_work;
+      for (int R = 0; R < dim; ++R)
+        r.fluid_gradient[R] = b.K * b.Gw[R];
+      r.fluid_value =
+        V / fluid.reference_density *
+        (step.scheme.content_factor() * r.content_increment + step.dt * trial.known_rate);
+      // the stabilisation at the volume of step n, where it is linear
+      r.pp_fluctuation    = V * trial.determinant * step.soil.stabilisation / step.scheme.theta;
+      r.fluid_fluctuation = r.pp_fluctuation * (trial.fluctuation - trial.fluctuation_n);
+    }
+
+    /** Slopes of the rows of momentum. */
+    template <int dim>
+    inline void
+    find_momentum_slopes(const ForceStress<dim, Pack> &stress,
+                         const PoreStep<dim>          &step,
+                         const PoreTrial<dim>         &trial,
+                         const Balance<dim>           &b,
+                         PoreResponse<dim>            &r)
+    {
+      const auto &G = b.G;
+      const Pack  V = trial.volume, Jp = V * b.J * trial.pressure;
+      for (int i = 0; i < dim; ++i)
+        {
+          r.up_value[i] = V * b.push[i] * b.phi * b.rho / step.soil.fluid.bulk_modulus;
+          for (int R = 0; R < dim; ++R)
+            {
+              r.up[i][R] = -V * b.J * G[R][i];
+              for (int m = 0; m < dim; ++m)
+                for (int S = 0; S < dim; ++S)
+                  r.uu[i][R][m][S] = V * stress.tangent[i][R][m][S] -
+                                     step.alpha * Jp * (G[R][i] * G[S][m] - G[R][m] * G[S][i]);
+            }
+          for (int m = 0; m < dim; ++m)
+            for (int S = 0; S < dim; ++S)
+              r.uu_value[i][m][S] = step.alpha * V * b.rho * b.J * b.push[i] * G[S][m];
+        }
+      r.mass_inertia = r.mass * step.inertia;
+    }
+
+    /** Slopes of the row of the fluid. */
+    template <int dim>
+    inline void
+    find_fluid_slopes(const PoreStep<dim>  &step,
+                      const PoreTrial<dim> &trial,
+                      const Balance<dim>   &b,
+                      PoreResponse<dim>    &r)
+    {
+      const PoreFluid &fluid = step.soil.fluid;
+      const auto      &G     = b.G;
+      const Pack       V     = trial.volume;
+      const double     rho_0 = fluid.reference_density, K_f = fluid.bulk_modulus;
+      const double     c = step.scheme.content_factor();
+      Pack             GG[dim][dim], Gp[dim];
+      pull_back<dim>(G, b.push, Gp);
+      for (int R = 0; R < dim; ++R)
+        pull_back<dim>(G, G[R], GG[R]);
+      // J d(J kappa)/dJ / (J kappa) = 1 + (1 - n) kappa'/kappa, kappa = 0 allowed
+      const Pack K_slope = b.K + V * b.J * (1. - b.n) *
+                                   in_lanes(b.n,
+                                            [&](const double x) {
+                                              return fluid.mass_mobility_slope(x);
+                                            }) *
+                                   step.dt / rho_0;
+      for (int m = 0; m < dim; ++m)
+        for (int S = 0; S < dim; ++S)
+          r.pu_value[m][S] = V / rho_0 * c * b.rho_end * b.J_end * b.G_end[S][m];
+      for (int R = 0; R < dim; ++R)
+        {
+          r.pp_weight[R] = b.K * Gp[R] * b.rho / K_f;
+          for (int m = 0; m < dim; ++m)
+            {
+              r.pu_inertia[R][m] = b.K * b.rho * step.inertia * G[R][m];
+              for (int S = 0; S < dim; ++S)
+                r.pu[R][m][S] = step.alpha * (K_slope * b.Gw[R] * G[S][m] -
+                                              b.K * (G[R][m] * b.Gw[S] + b.gradient[m] * GG[R][S]));
+            }
+          for (int S = 0; S < dim; ++S)
+            r.pp[R][S] = b.K * GG[R][S];
+        }
+      r.pp_value = V / rho_0 * c * b.rho_end * (b.J_end - (1. - fluid.initial_porosity)) /
+                   (K_f * step.scheme.theta);
+    }
+  } // namespace
+
+
+
   template <int dim, bool with_tangent>
   void
   evaluate_pore_response(const ForceStress<dim, Pack> &stress,
@@ -74,131 +269,18 @@ namespace kedge
                          const PoreTrial<dim>         &trial,
                          PoreResponse<dim>            &r)
   {
-    const PoreFluid &fluid = step.soil.fluid;
-
-    Pack at[dim][dim], G[dim][dim], G_end[dim][dim]; // inverse dF at balance and at the end
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j)
-        at[i][j] = step.alpha * trial.displacement[i][j];
-    const Pack excess     = invert<dim>(at, G);
-    const Pack excess_end = invert<dim>(trial.displacement, G_end);
-    r.valid               = stress.valid && excess > -1. && excess_end > -1.;
+    Balance<dim> balance;
+    find_kinematics(step, trial, balance);
+    r.valid = stress.valid && balance.excess > -1. && balance.excess_end > -1.;
     if (!any(r.valid))
       return;
-
-    const Pack   V  = trial.volume;
-    const double dt = step.dt, K_f = fluid.bulk_modulus;
-    const double grains = 1. - fluid.initial_porosity;
-    const double rho_0  = fluid.reference_density;
-
-    const auto density = [&fluid](const Pack &pressure) {
-      return in_lanes(pressure, [&fluid](const double x) {
-        return fluid.density(x);
-      });
-    };
-
-    // at balance
-    const Pack J   = trial.determinant * (1. + excess);
-    const Pack phi = J - grains; // pores per V0
-    const Pack p = trial.pressure, rho = density(p), n = 1. - grains / J;
-    const Pack Jp       = V * J * p;
-    const Pack mobility = in_lanes(n, [&](const double x) {
-      return fluid.mass_mobility(x);
-    });
-    const Pack K        = V * J * mobility * dt / rho_0;
-    // at the end
-    r.end_pressure     = trial.pressure_n + (p - trial.pressure_n) / step.scheme.theta;
-    const Pack J_end   = trial.determinant * (1. + excess_end);
-    r.end_determinant  = J_end;
-    const Pack phi_n   = trial.determinant - grains;
-    const Pack rho_n   = density(trial.pressure_n);
-    const Pack rho_end = density(r.end_pressure);
-    const Pack rho_grown =
-      rho_n * in_lanes((r.end_pressure - trial.pressure_n) / K_f, [](const double x) {
-        return std::expm1(x);
-      });
-    r.content_increment = rho_end * trial.determinant * excess_end + phi_n * rho_grown;
-
-    // momentum
-    Pack push[dim]; // a - f
-    r.mass = V * (step.soil.grain_density * grains + rho * phi);
-    for (int i = 0; i < dim; ++i)
-      {
-        push[i]             = trial.acceleration[i] - step.acceleration[i];
-        r.momentum_value[i] = r.mass * push[i];
-        for (int R = 0; R < dim; ++R)
-          r.momentum_gradient[i][R] = V * stress.stress[i][R] - Jp * G[R][i];
-      }
-
-    // fluid: w = grad p - rho_f (f - a) drives the flow
-    Pack gradient[dim], w[dim], Gw[dim], power = 0., flow_work = 0.;
-    for (int i = 0; i < dim; ++i)
-      {
-        gradient[i] = 0.;
-        for (int R = 0; R < dim; ++R)
-          gradient[i] += trial.pressure_gradient[R] * G[R][i];
-        w[i]                = gradient[i] + rho * push[i];
-        r.darcy_velocity[i] = -mobility / rho * w[i];
-        power -= r.darcy_velocity[i] * w[i];
-        flow_work -= rho * push[i] * r.darcy_velocity[i];
-      }
-    r.darcy_power    = J * power;
-    r.flow_work_rate = J * flow_work;
-    pull_back<dim>(G, w, Gw);
-    for (int R = 0; R < dim; ++R)
-      r.fluid_gradient[R] = K * Gw[R];
-    const double c = step.scheme.content_factor();
-    r.fluid_value  = V / rho_0 * (c * r.content_increment + dt * trial.known_rate);
-    // the stabilisation at the volume of step n, where it is linear
-    r.pp_fluctuation    = V * trial.determinant * step.soil.stabilisation / step.scheme.theta;
-    r.fluid_fluctuation = r.pp_fluctuation * (trial.fluctuation - trial.fluctuation_n);
-
+    find_flow(step, trial, balance);
+    find_end(step, trial, balance, r);
+    find_residual(stress, step, trial, balance, r);
     if constexpr (with_tangent)
       {
-        Pack GG[dim][dim], Gp[dim];
-        pull_back<dim>(G, push, Gp);
-        for (int R = 0; R < dim; ++R)
-          pull_back<dim>(G, G[R], GG[R]);
-        // J d(J kappa)/dJ / (J kappa) = 1 + (1 - n) kappa'/kappa, kappa = 0 allowed
-        const Pack K_slope = K + V * J * (1. - n) *
-                                   in_lanes(n,
-                                            [&](const double x) {
-                                              return fluid.mass_mobility_slope(x);
-                                            }) *
-                                   dt / rho_0;
-        for (int i = 0; i < dim; ++i)
-          {
-            r.up_value[i] = V * push[i] * phi * rho / K_f;
-            for (int R = 0; R < dim; ++R)
-              {
-                r.up[i][R] = -V * J * G[R][i];
-                for (int m = 0; m < dim; ++m)
-                  for (int S = 0; S < dim; ++S)
-                    r.uu[i][R][m][S] = V * stress.tangent[i][R][m][S] -
-                                       step.alpha * Jp * (G[R][i] * G[S][m] - G[R][m] * G[S][i]);
-              }
-            for (int m = 0; m < dim; ++m)
-              for (int S = 0; S < dim; ++S)
-                r.uu_value[i][m][S] = step.alpha * V * rho * J * push[i] * G[S][m];
-          }
-        for (int m = 0; m < dim; ++m)
-          for (int S = 0; S < dim; ++S)
-            r.pu_value[m][S] = V / rho_0 * c * rho_end * J_end * G_end[S][m];
-        for (int R = 0; R < dim; ++R)
-          {
-            r.pp_weight[R] = K * Gp[R] * rho / K_f;
-            for (int m = 0; m < dim; ++m)
-              {
-                r.pu_inertia[R][m] = K * rho * step.inertia * G[R][m];
-                for (int S = 0; S < dim; ++S)
-                  r.pu[R][m][S] = step.alpha * (K_slope * Gw[R] * G[S][m] -
-                                                K * (G[R][m] * Gw[S] + gradient[m] * GG[R][S]));
-              }
-            for (int S = 0; S < dim; ++S)
-              r.pp[R][S] = K * GG[R][S];
-          }
-        r.pp_value     = V / rho_0 * c * rho_end * (J_end - grains) / (K_f * step.scheme.theta);
-        r.mass_inertia = r.mass * step.inertia;
+        find_momentum_slopes(stress, step, trial, balance, r);
+        find_fluid_slopes(step, trial, balance, r);
       }
   }
 

@@ -236,7 +236,7 @@ namespace kedge
     const StepTimes &times = trial.times;
     return at(trial.unknowns.fields[field],
               trial.motion[field].acceleration,
-              scheme.dynamic ? scheme.inertia_coefficient(times.dt) : 0.,
+              scheme.inertia_coefficient(times.dt),
               times.dt,
               scheme.load_time(times.t_n, times.dt),
               pressure_time(times));
@@ -310,7 +310,7 @@ namespace kedge
     if (blocks_have_values)
       return;
     const double factor  = porous_force.scheme().content_factor();
-    const double inertia = scheme.dynamic ? scheme.inertia_coefficient(trial.times.dt) : 0.;
+    const double inertia = scheme.inertia_coefficient(trial.times.dt);
     blocks.assemble(patch,
                     modulus_of_body,
                     factor / scheme.alpha_f,

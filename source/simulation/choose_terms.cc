@@ -77,7 +77,13 @@ namespace kedge
                                                             scene.stabilisation,
                                                             bodies.young_moduli,
                                                             scheme));
-        here.mapping_terms.push_back(ghosts);
+        if (here.transfer)
+          here.mapping_terms.push_back(
+            &add_term(std::make_unique<GhostInertiaTerm<dim>>(field,
+                                                              patch,
+                                                              *ghosts,
+                                                              scene.stabilisation,
+                                                              scheme)));
       }
     if (scene.pore_fluid)
       choose_porous_terms(field, loads, ghosts, program);

@@ -84,10 +84,11 @@ namespace kedge
     std::vector<NodeConditionParameters<dim>> result;
     for (std::size_t c = 0; c < scene.node_conditions.size(); ++c)
       {
-        bool holds = scene.node_condition_bodies[c].empty();
+        const std::string body =
+          c < scene.node_condition_bodies.size() ? scene.node_condition_bodies[c] : "";
+        bool holds = body.empty();
         for (std::size_t b = 0; b < bodies.names.size(); ++b)
-          holds = holds ||
-                  (bodies.names[b] == scene.node_condition_bodies[c] && bodies.field[b] == field);
+          holds = holds || (bodies.names[b] == body && bodies.field[b] == field);
         if (holds)
           result.push_back(scene.node_conditions[c]);
       }

@@ -3,6 +3,61 @@
 
 namespace kedge
 {
+  namespace
+  {
+    const Ledger::Entry stabilisation_energy = {"stabilisation_energy",
+                                                "J",
+                                                Ledger::Section::energy,
+                                                Ledger::Kind::total,
+                                                Ledger::Role::lost,
+                                                "energy"};
+
+    /** A matrix of zeros between the nodes of a configuration. */
+    template <int dim>
+    void
+    start_matrix(const Patch<dim> &patch, NodeMatrix<dim> &matrix)
+    {
+      if (patch.new_pattern())
+        matrix.reinit(patch.nodes.n_local(), 1, GhostTerm<dim>::radius);
+      matrix.set_zero();
+    }
+
+    /** sums += factor A x, dim values of x per local node, n_components() of the sums. */
+    template <int dim>
+    void
+    add_product(const Patch<dim>          &patch,
+                const double               factor,
+                const NodeMatrix<dim>     &matrix,
+                const std::vector<double> &x,
+                std::vector<double>       &sums)
+    {
+      std::vector<double> Ax(x.size());
+      multiply(matrix, patch, dim, x, Ax);
+      const std::size_t n_components = patch.n_components();
+      for (std::size_t i = 0; i < x.size() / dim; ++i)
+        for (int d = 0; d < dim; ++d)
+          sums[i * n_components + d] += factor * Ax[i * dim + d];
+    }
+
+    /** x . A y, this rank's share. */
+    template <int dim>
+    double
+    product(const Patch<dim>          &patch,
+            const std::vector<double> &x,
+            const NodeMatrix<dim>     &matrix,
+            const std::vector<double> &y)
+    {
+      std::vector<double> Ay(y.size());
+      multiply(matrix, patch, dim, y, Ay);
+      double sum = 0.;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        sum += x[i] * Ay[i];
+      return sum;
+    }
+  } // namespace
+
+
+
   template <int dim>
   GhostTerm<dim>::GhostTerm(const unsigned int             field,
                             const Patch<dim>              &patch,
@@ -22,12 +77,7 @@ namespace kedge
   void
   GhostTerm<dim>::declare_books(Ledger &ledger)
   {
-    energy = ledger.declare({"stabilisation_energy",
-                             "J",
-                             Ledger::Section::energy,
-                             Ledger::Kind::total,
-                             Ledger::Role::lost,
-                             "energy"});
+    energy = ledger.declare(stabilisation_energy);
   }
 
 
@@ -46,22 +96,84 @@ namespace kedge
   void
   GhostTerm<dim>::activate(const MaterialPoints<dim> &)
   {
-    const auto start = [&](NodeMatrix<dim> &matrix) -> NodeMatrix<dim> & {
-      if (patch.new_pattern())
-        matrix.reinit(patch.nodes.n_local(), 1, radius);
-      matrix.set_zero();
-      return matrix;
-    };
-    ghosts.add_stiffness(patch, parameters.ghost_stiffness_factor, start(stiffness));
-    if (scheme.dynamic)
-      ghosts.add_mass(patch, parameters.ghost_mass_factor, start(mass));
+    start_matrix(patch, stiffness);
+    ghosts.add_stiffness(patch, parameters.ghost_stiffness_factor, stiffness);
+  }
+
+
+
+  template <int dim>
+  Answer
+  GhostTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
+  {
+    add_product(patch,
+                scheme.alpha_f,
+                stiffness,
+                trial.displacement(field),
+                residual.partial(field));
+    return {};
   }
 
 
 
   template <int dim>
   void
-  GhostTerm<dim>::add_mapping_mass(const unsigned int of_field, NodeMatrix<dim> &mapped) const
+  GhostTerm<dim>::add_tangent(const Trial<dim> &, Tangent<dim> &tangent)
+  {
+    tangent.add_to_diagonal_blocks(field, scheme.alpha_f, stiffness, 0, dim);
+  }
+
+
+
+  /** u . alpha_f K_G u */
+  template <int dim>
+  void
+  GhostTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  {
+    const std::vector<double> &u = trial.displacement(field);
+    ledger.book(energy, scheme.alpha_f * product(patch, u, stiffness, u));
+  }
+
+
+
+  template <int dim>
+  GhostInertiaTerm<dim>::GhostInertiaTerm(const unsigned int             field,
+                                          const Patch<dim>              &patch,
+                                          const GhostTerm<dim>          &ghosts,
+                                          const StabilisationParameters &parameters,
+                                          const Scheme                  &scheme)
+    : field(field)
+    , patch(patch)
+    , ghosts(ghosts)
+    , factor(parameters.ghost_mass_factor)
+    , scheme(scheme)
+  {}
+
+
+
+  template <int dim>
+  void
+  GhostInertiaTerm<dim>::declare_books(Ledger &ledger)
+  {
+    energy = ledger.declare(stabilisation_energy);
+  }
+
+
+
+  template <int dim>
+  void
+  GhostInertiaTerm<dim>::activate(const MaterialPoints<dim> &)
+  {
+    start_matrix(patch, mass);
+    ghosts.penalty().add_mass(patch, factor, mass);
+  }
+
+
+
+  template <int dim>
+  void
+  GhostInertiaTerm<dim>::add_mapping_mass(const unsigned int of_field,
+                                          NodeMatrix<dim>   &mapped) const
   {
     if (of_field != field)
       return;
@@ -75,18 +187,9 @@ namespace kedge
 
   template <int dim>
   Answer
-  GhostTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
+  GhostInertiaTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
   {
-    const std::vector<double> &u = trial.displacement(field);
-    std::vector<double>        force(u.size()), inertia(u.size(), 0.);
-    multiply(stiffness, patch, dim, u, force);
-    if (scheme.dynamic)
-      multiply(mass, patch, dim, trial.motion[field].acceleration, inertia);
-    std::vector<double> &sums         = residual.partial(field);
-    const std::size_t    n_components = patch.n_components();
-    for (std::size_t i = 0; i < u.size() / dim; ++i)
-      for (int d = 0; d < dim; ++d)
-        sums[i * n_components + d] += scheme.alpha_f * force[i * dim + d] + inertia[i * dim + d];
+    add_product(patch, 1., mass, trial.motion[field].acceleration, residual.partial(field));
     return {};
   }
 
@@ -94,56 +197,32 @@ namespace kedge
 
   template <int dim>
   void
-  GhostTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
+  GhostInertiaTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    tangent.add_to_diagonal_blocks(field, scheme.alpha_f, stiffness, 0, dim);
-    if (scheme.dynamic)
-      tangent.add_to_diagonal_blocks(field,
-                                     scheme.inertia_coefficient(trial.times.dt),
-                                     mass,
-                                     0,
-                                     dim);
+    tangent.add_to_diagonal_blocks(field, scheme.inertia_coefficient(trial.times.dt), mass, 0, dim);
   }
 
 
 
-  /** u . (M_G a_m + alpha_f K_G u) - v_n . M_G dv, the last only if M_G is in the mapping. */
-  template <int dim>
-  double
-  GhostTerm<dim>::work(const Trial<dim> &trial) const
-  {
-    const std::vector<double> &u = trial.displacement(field);
-    std::vector<double>        product(u.size());
-    double                     sum = 0.;
-    multiply(stiffness, patch, dim, u, product);
-    for (std::size_t i = 0; i < u.size(); ++i)
-      sum += scheme.alpha_f * u[i] * product[i];
-    if (!scheme.dynamic)
-      return sum;
-    const auto &motion = trial.motion[field];
-    multiply(mass, patch, dim, motion.acceleration, product);
-    for (std::size_t i = 0; i < u.size(); ++i)
-      sum += u[i] * product[i];
-    if (!is_mapped)
-      return sum;
-    std::vector<double> change = trial.end_velocity(scheme, field);
-    for (std::size_t i = 0; i < u.size(); ++i)
-      change[i] -= motion.velocity_n[i];
-    multiply(mass, patch, dim, change, product);
-    for (std::size_t i = 0; i < u.size(); ++i)
-      sum -= motion.velocity_n[i] * product[i];
-    return sum;
-  }
-
-
-
+  /** u . M_G a_m - v_n . M_G dv, the last only if M_G is in the mapping. */
   template <int dim>
   void
-  GhostTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  GhostInertiaTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
   {
-    ledger.book(energy, work(trial));
+    const auto &motion = trial.motion[field];
+    double      work   = product(patch, trial.displacement(field), mass, motion.acceleration);
+    if (is_mapped)
+      {
+        std::vector<double> change = trial.end_velocity(scheme, field);
+        for (std::size_t i = 0; i < change.size(); ++i)
+          change[i] -= motion.velocity_n[i];
+        work -= product(patch, motion.velocity_n, mass, change);
+      }
+    ledger.book(energy, work);
   }
 
   template class GhostTerm<2>;
   template class GhostTerm<3>;
+  template class GhostInertiaTerm<2>;
+  template class GhostInertiaTerm<3>;
 } // namespace kedge

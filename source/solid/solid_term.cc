@@ -14,7 +14,6 @@ namespace kedge
                                               : StressRule::at_configuration,
                      scheme.alpha_f)
     , force_at_rest(material_of_body, StressRule::at_configuration, 1.)
-    , has_inertia(scheme.dynamic)
   {}
 
 
@@ -24,7 +23,6 @@ namespace kedge
   SolidTerm<dim>::declare_unknowns(Unknowns<dim> &unknowns)
   {
     unknowns.fields[field].measure_diagonal = true;
-    unknowns.traits.dominated_by_inertia    = has_inertia;
   }
 
 

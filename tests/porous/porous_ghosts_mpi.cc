@@ -90,6 +90,9 @@ namespace
         std::make_unique<PorousGhostTerm<dim>>(0, this->patch, *solid, *soil, ghosts, parameters);
       porous_ghosts = fluid_ghosts.get();
       this->terms.push_back(std::move(soil));
+      if (this->scheme.dynamic)
+        this->terms.push_back(
+          std::make_unique<GhostInertiaTerm<dim>>(0, this->patch, *solid, ghosts, this->scheme));
       this->terms.push_back(std::move(solid));
       this->terms.push_back(std::move(fluid_ghosts));
       this->start(0.1);

@@ -38,11 +38,15 @@ TYPED_TEST(SolidGhostTerm, TangentIsTheSlopeOfTheResidual)
         step.terms.push_back(
           std::make_unique<SolidTerm<dim>>(0, step.patch, materials, step.scheme));
         step.terms.push_back(std::make_unique<InertiaTerm<dim>>(0, step.patch, mass, step.scheme));
-        step.terms.push_back(std::make_unique<GhostTerm<dim>>(0,
-                                                              step.patch,
-                                                              ghosts,
-                                                              std::vector<double>{2.6, 5.},
-                                                              step.scheme));
+        auto ghost_term = std::make_unique<GhostTerm<dim>>(0,
+                                                           step.patch,
+                                                           ghosts,
+                                                           std::vector<double>{2.6, 5.},
+                                                           step.scheme);
+        auto ghost_inertia =
+          std::make_unique<GhostInertiaTerm<dim>>(0, step.patch, *ghost_term, ghosts, step.scheme);
+        step.terms.push_back(std::move(ghost_term));
+        step.terms.push_back(std::move(ghost_inertia));
         step.start();
         mass.reinit(step.patch.nodes.n_local(), 1, 2);
         assemble_mass(step.patch, mass);

@@ -30,6 +30,12 @@ namespace kedge
       return "inertia";
     }
 
+    void
+    declare_unknowns(Unknowns<dim> &unknowns) override
+    {
+      unknowns.traits.dominated_by_inertia = true;
+    }
+
     Answer
     add_residual(const Trial<dim> &trial, Residual<dim> &residual) override;
 

@@ -42,7 +42,6 @@ namespace kedge
     const Patch<dim>        &patch;
     const InternalForce<dim> internal_force;
     const InternalForce<dim> force_at_rest; ///< of the present configuration
-    const bool               has_inertia;
   };
 } // namespace kedge
 

@@ -26,11 +26,11 @@ namespace kedge
     double beta;
     double gamma;
 
-    /** d a_m / d u [1/s^2]. */
+    /** d a_m / d u [1/s^2]; 0 without inertia. */
     double
     inertia_coefficient(const double dt) const
     {
-      return alpha_m / (beta * dt * dt);
+      return dynamic ? alpha_m / (beta * dt * dt) : 0.;
     }
 
     /** a_{n+1} [m/s^2]. */
