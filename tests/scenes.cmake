@@ -95,6 +95,18 @@ kedge_add_scene_test(scene.block_on_incline.sticks prm/block_on_incline.prm
   SET "Constants/mu = 0.6")
 kedge_add_scene_test(scene.block_on_incline.smooth prm/block_on_incline.prm
   SET "Constants/mu = 0")
+# gravity that strikes makes the cylinder hop: within two per cent
+kedge_add_scene_test(scene.cylinder_rolling prm/cylinder_rolling.prm)
+kedge_add_scene_test(scene.cylinder_rolling.slides prm/cylinder_rolling.prm
+  SET "Constants/mu = 0.2")
+kedge_add_scene_test(scene.cylinder_rolling.shifted prm/cylinder_rolling.prm
+  SET "Constants/shift = 3/8" "Constants/T = 1.25" "Output/Points interval = 0")
+kedge_add_scene_test(scene.cylinder_rolling.struck prm/cylinder_rolling.prm
+  SET "Constants/lay = 0" "Constants/tolerance = 0.02" "Output/Points interval = 0")
+kedge_add_scene_test(scene.hertz_line prm/hertz_line.prm)
+kedge_add_scene_test(scene.spheres_collision prm/spheres_collision.prm)
+kedge_add_scene_test(scene.spheres_collision.smooth prm/spheres_collision.prm
+  SET "Constants/mu = 0")
 kedge_add_scene_test(scene.contact.ranks prm/prisms_collision.prm RANKS 2
   EXPECT_EXIT 1 EXPECT_STDERR "Contact with a law runs on one process")
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)

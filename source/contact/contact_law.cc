@@ -15,8 +15,7 @@ namespace kedge
     if (!law.conserving)
       {
         const double p = multiplier - eps * (gap_n + law.alpha * change);
-        return p > -eps * law.touch ? ContactPressure{std::max(p, 0.), -eps * law.alpha}
-                                    : ContactPressure();
+        return p > 0. ? ContactPressure{p, -eps * law.alpha} : ContactPressure();
       }
     // W = a^2 / (2 eps) with a = <lambda - eps g>, so that p = (a_0^2 - a_1^2) / (2 eps dg)
     const double a_0 = std::max(multiplier - eps * gap_n, 0.);
@@ -72,8 +71,6 @@ namespace kedge
     if (!(pressure.value > 0.))
       {
         result.dissipation = 0.5 * eps_t * slip_n.norm_square();
-        if (pressure.slope < 0. && (law.friction > 0. || law.adhesion > 0.))
-          result.slope -= law.alpha * eps_t * across; // what touches is taken to stick
         return result;
       }
     const double limit = law.friction * pressure.value + law.adhesion;

@@ -5,6 +5,28 @@
 
 namespace kedge
 {
+  namespace
+  {
+    /** d traction / dD of a place that is closed and sticks. */
+    template <int dim>
+    dealii::Tensor<2, dim>
+    stiffness_when_closed(const ContactLaw &law, const dealii::Tensor<1, dim> &normal)
+    {
+      dealii::Tensor<2, dim> result =
+        -law.alpha * law.normal_stiffness * outer_product(normal, normal);
+      if (law.friction > 0. || law.adhesion > 0.)
+        {
+          const double eps_t = law.alpha * law.tangent_stiffness;
+          result += eps_t * outer_product(normal, normal);
+          for (int d = 0; d < dim; ++d)
+            result[d][d] -= eps_t;
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   template <int dim>
   ContactTerm<dim>::ContactTerm(const ContactParameters               &parameters,
                                 const std::vector<ContactBodies<dim>> &bodies,
@@ -24,7 +46,6 @@ namespace kedge
         law.adhesion          = parameters.adhesion;
         law.alpha             = alpha;
         law.conserving        = scheme.dynamic && !scheme.carries_acceleration && alpha == 0.5;
-        law.touch             = 1e-9 * cell_size;
         const auto &first = moving(*pair.first), &second = moving(*pair.second);
         for (const bool swapped : {false, true})
           passes.emplace_back(swapped ? second : first,
@@ -48,37 +69,6 @@ namespace kedge
         return *known;
     surfaces.push_back(std::make_unique<MovingSurface<dim>>(surface));
     return *surfaces.back();
-  }
-
-
-
-  template <int dim>
-  void
-  ContactTerm<dim>::declare_books(Ledger &ledger)
-  {
-    using Section  = Ledger::Section;
-    using Kind     = Ledger::Kind;
-    using Role     = Ledger::Role;
-    columns.energy = ledger.declare(
-      {"contact_energy", "J", Section::energy, Kind::present, Role::stored, "energy"});
-    columns.friction = ledger.declare(
-      {"friction_dissipation", "J", Section::energy, Kind::total, Role::lost, "energy"});
-    columns.released = ledger.declare(
-      {"contact_energy_released", "J", Section::energy, Kind::total, Role::lost, "energy"});
-
-    std::string of_pair = "_" + parameters.name;
-    std::replace(of_pair.begin(), of_pair.end(), ' ', '_');
-    const auto of_step = [&](const std::string &column, const std::string &unit, const Kind kind) {
-      return ledger.declare({"contact_" + column + of_pair, unit, Section::force, kind});
-    };
-    for (int d = 0; d < dim; ++d)
-      columns.force[d] = of_step(std::string("force_") + "xyz"[d], "N", Kind::of_step);
-    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
-      columns.moment[d] = of_step(std::string("moment_") + "xyz"[d], "N m", Kind::of_step);
-    columns.area     = of_step("area", dim == 3 ? "m^2" : "m", Kind::of_step);
-    columns.pressure = of_step("pressure", "Pa", Kind::highest);
-    columns.overlap  = of_step("overlap", "m", Kind::highest);
-    columns.duration = of_step("duration", "s", Kind::total);
   }
 
 
@@ -121,7 +111,7 @@ namespace kedge
   void
   ContactTerm<dim>::start(Trial<dim> &trial)
   {
-    n_passes = n_updates = 0;
+    n_passes = n_updates = n_tangents = n_follows = 0;
     for (auto &surface : surfaces)
       {
         std::vector<dealii::Tensor<1, dim>> predicted(surface->surface.n_vertices());
@@ -150,6 +140,19 @@ namespace kedge
 
 
   template <int dim>
+  bool
+  ContactTerm<dim>::presses() const
+  {
+    for (const auto &half : passes)
+      for (const auto &sample : half.samples())
+        if (half.response(sample).pressure > 0.)
+          return true;
+    return false;
+  }
+
+
+
+  template <int dim>
   void
   ContactTerm<dim>::move_surfaces(const Trial<dim> &trial)
   {
@@ -170,6 +173,13 @@ namespace kedge
     if (!touches())
       return {};
     move_surfaces(trial);
+    // at rest nothing is predicted, and bodies that are barely held must not be pushed about
+    if (scheme.dynamic && n_follows < std::min(n_tangents, most_follows))
+      {
+        n_follows = n_tangents;
+        for (auto &half : passes)
+          half.find_anew();
+      }
     for (const auto &half : passes)
       {
         if (half.samples().empty())
@@ -201,15 +211,21 @@ namespace kedge
   void
   ContactTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
+    ++n_tangents;
     if (!touches())
       return;
     move_surfaces(trial);
     CouplingSum<dim> sum;
+    const bool       to_be_held = !scheme.dynamic && !presses();
     for (const auto &half : passes)
       for (const auto &sample : half.samples())
         {
-          const ContactResponse<dim> response = half.response(sample);
-          if (response.slope == dealii::Tensor<2, dim>())
+          const ContactResponse<dim>   response = half.response(sample);
+          const dealii::Tensor<2, dim> slope =
+            to_be_held && response.gap_end < nearly_closed * cell_size
+              ? stiffness_when_closed(half.law, sample.partner.normal)
+              : response.slope;
+          if (slope == dealii::Tensor<2, dim>())
             continue;
           typename CouplingSum<dim>::Coefficients coefficients;
           const auto                              add =
@@ -223,7 +239,7 @@ namespace kedge
             add(sampled, v, 1. / dim);
           for (int i = 0; i < dim; ++i)
             add(other, other.mesh().facets[sample.partner.facet][i], -sample.partner.weights[i]);
-          sum.add(coefficients, -sample.area * response.slope);
+          sum.add(coefficients, -sample.area * slope);
         }
     sum.add_to(tangent);
   }
@@ -256,10 +272,8 @@ namespace kedge
     std::vector<std::vector<typename SurfaceSamples<dim>::Sample>> samples(passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k)
       {
-        const auto multipliers = passes[k].multipliers();
-        passes[k].exchange(samples[k]); // empty
-        passes[k].find();
-        passes[k].set_multipliers(multipliers);
+        samples[k] = passes[k].samples();
+        passes[k].find_anew();
       }
     const std::vector<Forces> after = sample_forces();
     double                    size = 0., change = 0.;
@@ -360,69 +374,10 @@ namespace kedge
 
   template <int dim>
   void
-  ContactTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
-  {
-    ledger.book(columns.released, released);
-    double area = 0., pressure = 0., overlap = 0., friction = 0.;
-    double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
-    for (std::size_t k = 0; k < passes.size(); ++k)
-      for (const auto &sample : passes[k].samples())
-        {
-          const auto end = passes[k].outcome(sample);
-          friction += sample.area * end.response.dissipation;
-          overlap = std::max(overlap, -end.response.gap_end);
-          if (!(end.response.pressure > 0.))
-            continue;
-          pressure = std::max(pressure, end.response.pressure);
-          area += sample.area;
-          // on the first body, where that one is: in the configuration of the balance
-          const bool                   first = k % 2 == 0;
-          const dealii::Tensor<1, dim> f = (first ? 1. : -1.) * sample.area * end.response.traction;
-          const dealii::Point<dim>     x =
-            first ? passes[k].place_at_balance(sample) : passes[k].partner_at_balance(sample);
-          double arm[3] = {0, 0, 0}, on[3] = {0, 0, 0};
-          for (int d = 0; d < dim; ++d)
-            {
-              arm[d] = x[d];
-              on[d]  = f[d];
-            }
-          for (int d = 0; d < 3; ++d)
-            {
-              force[d] += on[d];
-              moment[d] += arm[(d + 1) % 3] * on[(d + 2) % 3] - arm[(d + 2) % 3] * on[(d + 1) % 3];
-            }
-        }
-    ledger.book(columns.friction, friction);
-    ledger.book(columns.area, area);
-    ledger.book(columns.pressure, pressure);
-    ledger.book(columns.overlap, overlap);
-    ledger.book(columns.duration, area > 0. ? trial.times.dt : 0.);
-    for (int d = 0; d < dim; ++d)
-      ledger.book(columns.force[d], force[d]);
-    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
-      ledger.book(columns.moment[d], moment[d]);
-  }
-
-
-
-  template <int dim>
-  void
   ContactTerm<dim>::commit(const Trial<dim> &, MaterialPoints<dim> &)
   {
     for (std::size_t k = 0; k < passes.size(); ++k)
       passes[k].commit(std::move(end_of_step[k]));
-  }
-
-
-
-  template <int dim>
-  void
-  ContactTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &ledger) const
-  {
-    for (const auto &half : passes)
-      ledger.book(columns.energy, half.stored());
-    for (const Ledger::Index extreme : {columns.pressure, columns.overlap})
-      ledger.book(extreme, 0.); // of states without a step before them
   }
 
 

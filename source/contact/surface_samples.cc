@@ -113,6 +113,20 @@ namespace kedge
 
 
 
+  template <int dim>
+  void
+  SurfaceSamples<dim>::find_anew()
+  {
+    std::map<unsigned int, double> multipliers;
+    for (const Sample &sample : samples_)
+      if (sample.multiplier > 0.)
+        multipliers[sample.facet] = sample.multiplier;
+    find();
+    set_multipliers(multipliers);
+  }
+
+
+
   /** Tilts s so that g_0 + s.D is the gap that the moved surfaces have at the end of the step. */
   template <int dim>
   void
@@ -201,19 +215,6 @@ namespace kedge
     return {response(sample),
             sample.partner.normal *
               (place(sample) - partner_place(sample) + relative_displacement(sample))};
-  }
-
-
-
-  template <int dim>
-  std::map<unsigned int, double>
-  SurfaceSamples<dim>::multipliers() const
-  {
-    std::map<unsigned int, double> result;
-    for (const Sample &sample : samples_)
-      if (sample.multiplier > 0.)
-        result[sample.facet] = sample.multiplier;
-    return result;
   }
 
 

@@ -13,6 +13,10 @@ namespace kedge
     /** Surfaces look towards each other if the cosine between their normals is below this. */
     constexpr double largest_cosine = -0.05;
 
+    /** Nearer than this to an edge or a vertex, in sizes of the facet, the direction from there is
+     * round-off. */
+    constexpr double smallest_distance = 1e-6;
+
     template <int dim>
     dealii::BoundingBox<dim>
     box_of(const std::array<dealii::Point<dim>, dim> &corners)
@@ -248,7 +252,8 @@ namespace kedge
         const auto            corners  = mesh.corners(f);
         const FacetPoint<dim> place    = closest_on_facet<dim>(corners, x);
         double                distance = place.distance;
-        if (f == previous)
+        // inside a bend both facets have a foot of the perpendicular
+        if (f == previous && place.region == FacetPoint<dim>::Region::face)
           distance -= hysteresis * (corners[1] - corners[0]).norm();
         if (distance < least)
           {
@@ -274,6 +279,10 @@ namespace kedge
     partner.facet   = best_facet;
     partner.weights = best.weights;
     partner.gap     = std::copysign(best.distance, off * partner.normal);
+    // off an edge or a vertex along the line between both places: a force has no moment then
+    if (best.region != FacetPoint<dim>::Region::face &&
+        best.distance > smallest_distance * (corners[1] - corners[0]).norm())
+      partner.normal = off / partner.gap;
     return true;
   }
 

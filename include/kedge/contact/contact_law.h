@@ -15,10 +15,6 @@ namespace kedge
 
     /** Part of the step at which the balance stands. */
     double alpha = 0.5;
-    /** At a gap below this surfaces touch: of no pressure yet, but of the stiffness of closed ones.
-     * Without it, what rests on another body would not be held before it presses. Not conserving.
-     */
-    double touch = 0.;
     /** Whether the pressure is the discrete gradient of the energy; if not, that at alpha. */
     bool conserving = true;
   };

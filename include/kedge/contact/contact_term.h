@@ -21,8 +21,9 @@ namespace kedge
    *   R -= sum of A B^T (p n + t),   D = B u
    * with D the relative displacement of a sample and its partner over the step, and the law
    * contact_response(). Directions and partners are those of the balance's configuration, first
-   * of a predicted one; once the equations are solved they are taken anew until the forces
-   * change no more than a little.
+   * of a predicted one; they follow the first corrections of Newton's method and are then held
+   * fixed; once the equations are solved they are taken anew until the forces change no more than
+   * a little.
    *
    * Without inertia the balance is that of the step's end, and the pressures are found by Uzawa's
    * iteration, lambda <- <lambda - eps g>, until no closed sample has more than a small gap.
@@ -35,8 +36,13 @@ namespace kedge
      * small the gaps of bodies at rest must be. */
     static constexpr double reach = 1., largest_overlap = 0.5, smallest_gap = 1e-3;
 
-    /** How often at most directions are taken anew, and multipliers. */
-    static constexpr unsigned int most_passes = 3, most_updates = 40;
+    /** Bodies at rest that do not press yet are held, in the first tangent, where gaps are smaller
+     * than this part of a cell. */
+    static constexpr double nearly_closed = 0.05;
+
+    /** How often at most the directions follow the first corrections of Newton's method, how
+     * often after its end they are taken anew, and multipliers. */
+    static constexpr unsigned int most_follows = 2, most_passes = 3, most_updates = 40;
 
     /** A change of the contact's forces by less than this part of them is let be. */
     static constexpr double small_change = 1e-3;
@@ -121,6 +127,8 @@ namespace kedge
     move_surfaces(const Trial<dim> &trial);
     bool
     touches() const;
+    bool
+    presses() const;
 
     const ContactParameters                          parameters;
     const Scheme                                     scheme;
@@ -131,6 +139,7 @@ namespace kedge
     std::vector<Memory>              end_of_step;
     double                           released = 0.; ///< energy lost track of [J]
     unsigned int                     n_passes = 0, n_updates = 0;
+    unsigned int                     n_tangents = 0, n_follows = 0;
     Columns                          columns{};
   };
 } // namespace kedge

@@ -89,9 +89,13 @@ namespace kedge
       , depth(depth)
     {}
 
-    /** Finds the samples in the configuration of the moved meshes, with @p multipliers if given. */
+    /** Finds the samples in the configuration of the moved meshes. */
     void
     find();
+
+    /** The same in the course of a step: they keep the multipliers that they have. */
+    void
+    find_anew();
 
     /** The box around the sampled surface in the configuration of the moved meshes. */
     dealii::BoundingBox<dim>
@@ -103,10 +107,6 @@ namespace kedge
     {
       samples_.swap(others);
     }
-
-    /** Multipliers by facet, of closed samples. */
-    std::map<unsigned int, double>
-    multipliers() const;
 
     /** Takes multipliers, for the facets that are not named 0. */
     void

@@ -47,7 +47,8 @@ namespace kedge
     {
       unsigned int            facet;
       std::array<double, dim> weights; ///< of the facet's corners
-      /** From the surface outward; on edges and vertices weighted by angles. */
+      /** From the surface outward; off edges and vertices along the line from there, very close to
+       * them the mean weighted by angles. */
       dealii::Tensor<1, dim> normal;
       double                 gap; ///< signed distance, negative inside the body [m]
     };
