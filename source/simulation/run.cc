@@ -143,7 +143,14 @@ namespace kedge
     while (!clock.finished())
       {
         set_step();
-        const StepReport report = step.attempt({clock.time(), clock.step_size()});
+        const StepReport report = step.attempt({clock.time(), clock.step_size()}, [&]() {
+          return signals.stop_requested();
+        });
+        if (report.interrupted)
+          {
+            write_checkpoint();
+            return finish("interrupted", "a signal asked for it");
+          }
         counts.newton += report.newton.iterations;
         counts.linear += report.newton.linear_iterations;
         if (!report.accepted)

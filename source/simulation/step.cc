@@ -1,5 +1,6 @@
 #include <kedge/simulation/attachments.h>
 #include <kedge/simulation/step.h>
+#include <kedge/solvers/interruptible.h>
 #include <kedge/transfer/node_sums.h>
 
 namespace kedge
@@ -81,7 +82,7 @@ namespace kedge
 
   template <int dim>
   StepReport
-  Step<dim>::attempt(const StepTimes &times)
+  Step<dim>::attempt(const StepTimes &times, const std::function<bool()> &stop)
   {
     activate();
     {
@@ -103,7 +104,15 @@ namespace kedge
         term->start(trial);
     }
     step_equations.start(trial, times.t_n + model.pressure_fraction * times.dt);
-    return check_points(solve());
+    if (!stop)
+      return check_points(solve(step_equations));
+    Interruptible      problem(step_equations, stop);
+    const NewtonReport newton = solve(problem);
+    if (!problem.interrupted)
+      return check_points(newton);
+    StepReport report;
+    report.interrupted = true;
+    return report;
   }
 
 
@@ -111,9 +120,9 @@ namespace kedge
   /** Newton's method, again as long as a term has held something fixed that has changed since. */
   template <int dim>
   NewtonReport
-  Step<dim>::solve()
+  Step<dim>::solve(NewtonProblem &problem)
   {
-    NewtonReport report      = solve_newton(step_equations, model.scene.newton);
+    NewtonReport report      = solve_newton(problem, model.scene.newton);
     const auto   has_changed = [&]() {
       bool any = false;
       for (auto &term : model.terms)
@@ -122,7 +131,7 @@ namespace kedge
     };
     while (report.converged && has_changed())
       {
-        NewtonReport again = solve_newton(step_equations, model.scene.newton);
+        NewtonReport again = solve_newton(problem, model.scene.newton);
         again.iterations += report.iterations;
         again.linear_iterations += report.linear_iterations;
         report = std::move(again);

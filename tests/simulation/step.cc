@@ -248,3 +248,30 @@ end
       << column;
   EXPECT_NEAR(two.value("energy_error_second"), 0., 1e-11 * two.value("total_energy_second"));
 }
+
+TEST(SimulationStepStop, AnAttemptIsGivenUpBetweenIterations)
+{
+  Setting    setting(spinning_block), undisturbed(spinning_block);
+  const auto before = setting.committed();
+  int        n      = 0;
+  // the second iteration is not begun
+  const StepReport report = setting.step.attempt({0., 0.01}, [&]() {
+    return ++n == 2;
+  });
+  EXPECT_TRUE(report.interrupted);
+  EXPECT_FALSE(report.accepted);
+  EXPECT_EQ(n, 2);
+  EXPECT_EQ(setting.committed(), before); // bit for bit
+  // and the step can be made afterwards as if nothing had been
+  for (Setting *one : {&setting, &undisturbed})
+    {
+      ASSERT_TRUE(one->step
+                    .attempt({0., 0.01},
+                             []() {
+                               return false;
+                             })
+                    .accepted);
+      one->step.commit();
+    }
+  EXPECT_EQ(setting.committed(), undisturbed.committed());
+}

@@ -4,6 +4,7 @@
 #include <kedge/equations/step_equations.h>
 #include <kedge/simulation/model.h>
 
+#include <functional>
 #include <map>
 
 namespace kedge
@@ -11,9 +12,10 @@ namespace kedge
   /** How an attempt at a step ended. */
   struct StepReport
   {
-    bool         accepted = false;
-    bool         hopeless = false; ///< a smaller step would not help
-    std::string  cause;            ///< of a rejection
+    bool         accepted    = false;
+    bool         hopeless    = false; ///< a smaller step would not help
+    bool         interrupted = false; ///< given up because it was asked to
+    std::string  cause;               ///< of a rejection
     NewtonReport newton;
   };
 
@@ -50,9 +52,14 @@ namespace kedge
     void
     initialise_points(const double t, const bool after_stage);
 
-    /** One attempt (collective). */
+    /**
+     * One attempt (collective).
+     *
+     * @param stop asked before each iteration of Newton's method; if it says true, on all
+     * ranks, the attempt is given up
+     */
     StepReport
-    attempt(const StepTimes &times);
+    attempt(const StepTimes &times, const std::function<bool()> &stop = {});
 
     /** Commits the last attempt, which must have been accepted, and books it (collective). */
     void
@@ -82,7 +89,7 @@ namespace kedge
     LinearStatus
     points_to_nodes();
     NewtonReport
-    solve();
+    solve(NewtonProblem &problem);
     StepReport
     check_points(const NewtonReport &newton);
     std::string
