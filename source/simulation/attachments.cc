@@ -53,8 +53,10 @@ namespace kedge
         out << "  and " << conditions.size() - most_lines << " more node conditions\n";
       if (!any && !conditions.empty() && !model.scheme.dynamic)
         throw UserError("No node condition holds a node of a cell with material points (" + idle +
-                        "), and without inertia nothing else keeps the bodies from moving. In 3D "
-                        "bottom and top are the sides -y and +y, back and front are -z and +z.");
+                        "), and without inertia nothing else keeps the bodies from moving." +
+                        (dim == 3 ? " In 3D bottom and top are the sides -y and +y, back and front "
+                                    "are -z and +z."
+                                  : ""));
     }
 
     /** The point of a body (of any, if there is no name) that is nearest to a place. */
