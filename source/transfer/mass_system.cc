@@ -107,6 +107,8 @@ namespace kedge
     double square = scaled_square(residual), before = 1.;
     for (unsigned int k = 0; k < limits.most_iterations && square > enough; ++k)
       {
+        if (limits.go_on && k == limits.ask_at && !limits.go_on())
+          return false;
         const double beta = k == 0 ? 0. : square / before;
         for (std::size_t i = 0; i < n_owned; ++i)
           direction[i] = inverse_lumped[i] * residual[i] + beta * direction[i];

@@ -4,6 +4,9 @@
 #include <kedge/equations/node_matrix.h>
 #include <kedge/fields/patch.h>
 
+#include <functional>
+#include <limits>
+
 namespace kedge
 {
   /** What a mass-like matrix acts on. */
@@ -32,6 +35,9 @@ namespace kedge
       unsigned int most_iterations;
       /** A longer step means an eigenvalue of the scaled matrix below its inverse: give up. */
       double longest_step = std::numeric_limits<double>::max();
+      /** Asked once, before the iteration of this number: whether to go on. */
+      unsigned int          ask_at = 0;
+      std::function<bool()> go_on  = {};
     };
 
     explicit MassSystem(const MassVectors vectors)
