@@ -90,6 +90,9 @@ foreach(cfl 0.5 5 20)
   kedge_add_scene_test(scene.prisms_collision.cfl_${cfl} prm/prisms_collision.prm
     SET "Constants/cfl = ${cfl}")
 endforeach()
+# the last cells are filled to 0.6
+kedge_add_scene_test(scene.prisms_collision.cut prm/prisms_collision.prm
+  SET "Constants/x0 = 0.41" "Constants/cfl = 0.5")
 kedge_add_scene_test(scene.block_on_incline prm/block_on_incline.prm)
 kedge_add_scene_test(scene.block_on_incline.sticks prm/block_on_incline.prm
   SET "Constants/mu = 0.6")

@@ -21,8 +21,12 @@ namespace kedge
     /** Corners of a cell. */
     static constexpr unsigned int n_corners = 1u << dim;
 
-    /** Of the cells around a vertex, the nearest one filled to this part is its root. */
-    static constexpr double well_filled = 0.6;
+    /**
+     * Of the cells around a vertex, the nearest one filled to this part is its root. Small: a root
+     * that changes to and fro as the body swings lets the surface drift off the body. Cells
+     * that are filled by less hold nodes that are tied (NodeTies), whose motion is that of others.
+     */
+    static constexpr double well_filled = 0.1;
 
     /** In so many cells around a vertex a root is searched; without one the fullest serves. */
     static constexpr int search_radius = 2;
