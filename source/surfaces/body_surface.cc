@@ -38,14 +38,16 @@ namespace kedge
 
   template <int dim>
   LatticeIndex<dim>
-  BodySurface<dim>::root_cell(const dealii::Point<dim> &x, const std::vector<double> &filling) const
+  BodySurface<dim>::root_cell(const dealii::Point<dim>  &x,
+                              const std::vector<double> &filling,
+                              const int                  radius) const
   {
     const auto             &lattice = patch.grid().lattice();
     const auto             &window  = patch.window();
     const LatticeIndex<dim> here    = lattice.cell_of(x);
     LatticeIndex<dim>       nearest = here, fullest = here;
     double                  least = std::numeric_limits<double>::max(), most = 0.;
-    constexpr int           width = 2 * search_radius + 1;
+    const int               width = 2 * radius + 1;
     unsigned int            n     = 1;
     for (int d = 0; d < dim; ++d)
       n *= width;
@@ -54,7 +56,7 @@ namespace kedge
         LatticeIndex<dim> cell;
         unsigned int      rest = k;
         for (int d = 0; d < dim; ++d, rest /= width)
-          cell[d] = here[d] + static_cast<int>(rest % width) - search_radius;
+          cell[d] = here[d] + static_cast<int>(rest % width) - radius;
         if (!window.contains_cell(cell))
           continue;
         const double full = filling[window.cell_number(cell)];
@@ -80,9 +82,13 @@ namespace kedge
             nearest = cell;
           }
       }
-    AssertThrow(most > 0.,
-                dealii::ExcMessage("The surface of body '" + body_name +
-                                   "' has come away from its material points."));
+    if (most == 0.) // far from all material: what is torn off follows the nearest cell there is
+      {
+        const int widest = *std::max_element(window.n_cells.begin(), window.n_cells.end());
+        AssertThrow(radius <= 2 * widest,
+                    dealii::ExcMessage("The body '" + body_name + "' has no material points."));
+        return root_cell(x, filling, 2 * radius);
+      }
     return least < std::numeric_limits<double>::max() ? nearest : fullest;
   }
 
@@ -102,7 +108,7 @@ namespace kedge
     for (unsigned int v = 0; v < n_vertices(); ++v)
       {
         const dealii::Point<dim> &x    = mesh_.vertices[v];
-        const LatticeIndex<dim>   cell = root_cell(x, filling);
+        const LatticeIndex<dim>   cell = root_cell(x, filling, search_radius);
         const auto [entry, is_new] =
           number_of_cell.emplace(window.cell_number(cell), static_cast<unsigned int>(roots.size()));
         root_of_vertex[v] = entry->second;

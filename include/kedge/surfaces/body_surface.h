@@ -119,7 +119,9 @@ namespace kedge
     std::vector<double>
     fillings() const;
     LatticeIndex<dim>
-    root_cell(const dealii::Point<dim> &x, const std::vector<double> &filling) const;
+    root_cell(const dealii::Point<dim>  &x,
+              const std::vector<double> &filling,
+              const int                  radius) const;
 
     SurfaceMesh<dim>                           mesh_;
     std::vector<double>                        reference_areas;
