@@ -110,6 +110,9 @@ kedge_add_scene_test(scene.hertz_line prm/hertz_line.prm)
 kedge_add_scene_test(scene.spheres_collision prm/spheres_collision.prm)
 kedge_add_scene_test(scene.spheres_collision.smooth prm/spheres_collision.prm
   SET "Constants/mu = 0")
+kedge_add_scene_test(refusal.surface_spacing prm/prisms_collision.prm
+  SET "Contact/bars/Surface spacing = 1e-6" EXPECT_EXIT 1
+  EXPECT_STDERR "Surface spacing of .* cells .* more surface points" LABELS refusal)
 kedge_add_scene_test(scene.contact.ranks prm/prisms_collision.prm RANKS 2
   EXPECT_EXIT 1 EXPECT_STDERR "Contact with a law runs on one process")
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)

@@ -89,10 +89,62 @@ namespace kedge
             << point->location.distance(place) << " m from its Place\n";
     }
 
+    /**
+     * Whether the face of a point's domain lies elsewhere than the body's surface: in the middle
+     * of the face, the surface is not where the domain ends.
+     */
+    template <int dim>
+    bool
+    lies_off_the_surface(const PointOrigin<dim> &point,
+                         const unsigned int      side,
+                         const Geometry<dim>    &geometry)
+    {
+      const unsigned int direction = side / 2;
+      const double       half = point.half_lengths[direction], length = 4. * half;
+      dealii::Point<dim> start = point.location;
+      if (side % 2 == 0)
+        start[direction] -= length;
+      const auto parts = geometry.inside(start, direction, length);
+      if (parts.empty())
+        return true;
+      const double end = side % 2 == 0 ? length - parts.back().first : parts.front().second;
+      return std::abs(end - half) > 1e-6 * half;
+    }
+
+    /** Warns of loads on sides that are not along the axes: their faces do not tile the surface. */
+    template <int dim>
+    void
+    describe_faces(const Model<dim>        &model,
+                   const std::string       &section,
+                   const SurfaceParameters &surface,
+                   std::ostream            &out)
+    {
+      unsigned int n = 0, n_oblique = 0;
+      for (const auto &point : model.generated_points())
+        if (model.bodies.names[point.body] == surface.body && model.scene.bodies[point.body].clip &&
+            ((point.exposed_sides >> surface.side) & 1u) != 0)
+          {
+            ++n;
+            n_oblique +=
+              lies_off_the_surface(point, surface.side, *model.scene.bodies[point.body].geometry);
+          }
+      if (n_oblique > 0)
+        out << "  note: " << section << '/' << surface.name << ": " << n_oblique << " of " << n
+            << " faces of body '" << surface.body
+            << "' on that side lie in cells that it cuts obliquely; what acts there may be wrong "
+               "by a third. With Cut cells = whole its sides are steps, whose areas add up.\n";
+    }
+
     template <int dim>
     void
     describe_places(const Model<dim> &model, std::ostream &out)
     {
+      for (const auto &traction : model.scene.tractions)
+        describe_faces(model, "Tractions", traction, out);
+      for (const auto &pressure : model.scene.surface_pressures)
+        describe_faces(model, "Surface pressures", pressure, out);
+      for (const auto &flux : model.scene.surface_fluxes)
+        describe_faces(model, "Surface fluxes", flux, out);
       std::size_t n = 0;
       for (const auto &load : model.scene.point_loads)
         if (n++ < most_lines)

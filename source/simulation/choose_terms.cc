@@ -131,6 +131,10 @@ namespace kedge
     /** Of the bodies' surfaces, where no contact asks for another: parts of a cell. */
     constexpr double default_spacing = 0.2;
 
+    /** The smallest one that is allowed, in cells: finer surfaces tell nothing that cells could
+     * follow. */
+    constexpr double smallest_spacing = 0.005;
+
     /** How stiff the contact of two bodies is: eps = beta M / h, eps_t by Mindlin's ratio. */
     template <int dim>
     ContactBodies<dim>
@@ -173,6 +177,11 @@ namespace kedge
                 std::find(group->begin(), group->end(), bodies.names[b]) != group->end())
               spacing =
                 std::min(spacing, contact.spacing > 0. ? contact.spacing : default_spacing * h);
+        if (spacing < smallest_spacing * h)
+          throw UserError("Contact: a Surface spacing of " + std::to_string(spacing / h) +
+                          " cells gives body '" + bodies.names[b] +
+                          "' more surface points than can be followed. Allowed: from " +
+                          std::to_string(smallest_spacing) + " of a cell on.");
         if (spacing < std::numeric_limits<double>::max())
           surfaces[bodies.names[b]] =
             &add_term(std::make_unique<SurfaceTerm<dim>>(bodies.names[b],

@@ -219,6 +219,33 @@ namespace kedge
 
 
 
+  /** Whether the nearest of some facets, whatever way it looks, has @p x on its outer side. */
+  template <int dim>
+  bool
+  FacetSearch<dim>::is_outside(const dealii::Point<dim>        &x,
+                               const std::vector<unsigned int> &facets,
+                               const double                     reach) const
+  {
+    double least  = reach;
+    bool   result = false;
+    for (const unsigned int f : facets)
+      {
+        const auto            corners = mesh.corners(f);
+        const FacetPoint<dim> place   = closest_on_facet<dim>(corners, x);
+        if (place.distance >= least)
+          continue;
+        least                          = place.distance;
+        const bool             on_face = place.region == FacetPoint<dim>::Region::face;
+        dealii::Tensor<1, dim> off     = x;
+        for (int i = 0; i < dim; ++i)
+          off -= place.weights[i] * corners[i];
+        result = off * (on_face ? normals[f] : mean_at(f, place).sum) > 0.;
+      }
+    return result;
+  }
+
+
+
   template <int dim>
   bool
   FacetSearch<dim>::find(const dealii::Point<dim>     &x,
@@ -279,6 +306,9 @@ namespace kedge
     partner.facet   = best_facet;
     partner.weights = best.weights;
     partner.gap     = std::copysign(best.distance, off * partner.normal);
+    // through the body, from outside of a nearer side that does not look this way: no overlap
+    if (partner.gap < 0. && is_outside(x, near, best.distance))
+      return false;
     // off an edge or a vertex along the line between both places: a force has no moment then
     if (best.region != FacetPoint<dim>::Region::face &&
         best.distance > smallest_distance * (corners[1] - corners[0]).norm())

@@ -211,6 +211,18 @@ TEST(SurfacesFacetSearch, FindsTheSideAndLooksTowardsIt)
   EXPECT_FALSE(search.find({1.03, 1.2}, up, 0.5, search.no_facet, partner));   // looks away
   EXPECT_FALSE(search.find({1.03, 1.6}, down, 0.5, search.no_facet, partner)); // too far
   EXPECT_FALSE(search.find({2.1, 1.1}, down, 0.5, search.no_facet, partner));  // beyond the corner
+  // a side of another body that passes outside of a disc sees, through the disc, the facets that
+  // look towards it; nearer ones have it outside: no overlap. Within the disc there is one.
+  std::vector<dealii::Point<2>> circle;
+  for (int k = 0; k < 60; ++k)
+    circle.emplace_back(0.5 * std::cos(k * M_PI / 30.), 0.5 * std::sin(k * M_PI / 30.));
+  const auto           disc_mesh = mesh_of_polygon(circle, 0.1);
+  const FacetSearch<2> disc(disc_mesh, dealii::BoundingBox<2>({{-1., -1.}, {1., 1.}}));
+  for (const double x : {0.47, 0.48, 0.49, 0.495})
+    EXPECT_FALSE(disc.find({x, -0.3}, down, 0.4, search.no_facet, partner) && partner.gap < 0.)
+      << x;
+  ASSERT_TRUE(disc.find({0.47, 0.}, dealii::Point<2>(-1., 0.), 0.4, search.no_facet, partner));
+  EXPECT_NEAR(partner.gap, -0.03, 1e-3); // the polygon lies within .0007 of the circle
   // beyond a blunt one the normal points to it
   const auto tip = mesh_of_polygon({{0., 0.}, {2., 0.}, {2., 1.}, {1., 1.2}, {0., 1.}}, 0.1);
   const FacetSearch<2> blunt(tip, dealii::BoundingBox<2>({{-1., -1.}, {3., 2.}}));

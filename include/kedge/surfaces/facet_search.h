@@ -108,6 +108,10 @@ namespace kedge
     find_mean(MeanNormal &mean) const;
     const MeanNormal &
     mean_at(const unsigned int facet, const FacetPoint<dim> &place) const;
+    bool
+    is_outside(const dealii::Point<dim>        &x,
+               const std::vector<unsigned int> &facets,
+               const double                     reach) const;
 
     const SurfaceMesh<dim>             &mesh;
     std::vector<dealii::Tensor<1, dim>> normals;        ///< unit vectors of all facets
