@@ -48,6 +48,7 @@ function(kedge_add_unit_tests target)
   else()
     target_link_libraries(${target} kedge::kedge)
     kedge_set_up_target(${target})
+    target_compile_options(${target} PRIVATE -O1) # they are run once, and short
     target_precompile_headers(${target} REUSE_FROM kedge_library)
   endif()
   target_link_libraries(${target} GTest::gtest)

@@ -10,6 +10,12 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/base/utilities.h>
 
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/particles/particle_handler.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
