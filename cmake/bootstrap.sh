@@ -126,6 +126,16 @@ configure()
   fi
 }
 
+# configure_with OPTION...: the same, with these CMake options switched on.
+configure_with()
+{
+  local option missing=()
+  for option in "$@"; do
+    grep -qs "^$option:BOOL=ON" "$build/CMakeCache.txt" || missing+=(-D "$option=ON")
+  done
+  configure "${missing[@]}"
+}
+
 # compile TARGET...: with progress if there is somebody to see it. The stamp
 # is as old as the beginning, so that changes made meanwhile count as new.
 compile()

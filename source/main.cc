@@ -1,13 +1,11 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/base/process.h>
 #include <kedge/base/shortened.h>
 #include <kedge/base/single_process.h>
 #include <kedge/io/versions.h>
 #include <kedge/scene/command_line.h>
-#include <kedge/scene/idle_settings.h>
-#include <kedge/scene/read_scene.h>
-#include <kedge/simulation/drive_point.h>
-#include <kedge/simulation/run.h>
-#include <kedge/simulation/size_check.h>
+#include <kedge/scene/print_parameters.h>
+#include <kedge/simulation/session.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,13 +15,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-
-extern "C"
-{
-  /** Of OpenBLAS; absent from other libraries. */
-  void
-  openblas_set_num_threads(int) __attribute__((weak));
-}
 
 namespace kedge
 {
@@ -78,28 +69,20 @@ namespace kedge
       return line + (command.resume ? "" : "--resume");
     }
 
-    template <int dim>
     ExitCode
     run(const CommandLine &command, const ParameterFile &file)
     {
-      const Scene<dim> scene = read_scene<dim>(file);
-      check_size(scene);
-      const std::vector<std::string> notes = idle_settings(file, scene);
       if (command.validate)
         {
-          validate_scene(scene, std::cout, MPI_COMM_WORLD);
-          if (is_first_process())
-            for (const std::string &note : notes)
-              std::cout << "note:             " << note << "\n";
+          validate(file, std::cout, MPI_COMM_WORLD);
           return ExitCode::finished;
         }
       RunOptions options;
-      options.notes          = notes;
-      options.output         = output_folder(command, scene.name);
+      options.output         = output_folder(command, file.scene_name());
       options.resume         = command.resume;
       options.strict         = command.strict;
       options.resume_command = resume_command(command);
-      return Run<dim>(scene, options, MPI_COMM_WORLD).run();
+      return Session::open(file, options, MPI_COMM_WORLD)->run().code;
     }
 
     void
@@ -125,43 +108,26 @@ namespace kedge
     ExitCode
     obey(const CommandLine &command)
     {
-      if (openblas_set_num_threads != nullptr)
-        openblas_set_num_threads(static_cast<int>(command.n_threads.value_or(1)));
+      set_blas_threads(command.n_threads.value_or(1));
       ParameterFile file = ParameterFile::read(command.scene, MPI_COMM_WORLD);
       for (const std::string &setting : command.settings)
         file.set(setting);
-      if (command.drive || is_path_file(file))
+      if (command.drive || is_path(file))
         {
           if (command.resume)
             throw UserError(command.scene + " is a path of a single material point; --resume does "
                                             "not go with it.");
-          const PathScene scene = read_path_scene(file);
-          check_size(scene);
           if (command.validate)
             {
-              if (is_first_process())
-                std::cout << "path:             " << scene.path.n_steps
-                          << " steps of one material point of '" << scene.material.name
-                          << "' to t = " << scene.path.end << " s" << std::endl;
+              validate(file, std::cout, MPI_COMM_WORLD);
               return ExitCode::finished;
             }
-          return drive_point(scene,
-                             output_folder(command, scene.name),
-                             command.strict,
-                             MPI_COMM_WORLD);
+          return drive(file,
+                       output_folder(command, file.scene_name()),
+                       command.strict,
+                       MPI_COMM_WORLD);
         }
-      return scene_dimension(file) == 2 ? run<2>(command, file) : run<3>(command, file);
-    }
-
-    /**
-     * Ranks that wait give way to others: without it two ranks that share their
-     * cores with other programs take ten times as long. Of Open MPI; mpirun sets
-     * it to 0 for as many ranks as cores, however busy these are.
-     */
-    void
-    give_way_while_waiting()
-    {
-      setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
+      return run(command, file);
     }
 
     /** A message of at most some lines of a terminal: values in it may be of any length. */

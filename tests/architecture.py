@@ -44,6 +44,8 @@ MAY_INCLUDE["contact"] = MAY_INCLUDE["solid"]
 MAY_INCLUDE["scene"] = set()
 MAY_INCLUDE["io"] = MAY_INCLUDE["porous"] | {"scene", "porous", "contact"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) | {"io", "scene"}
+# binds what main.cc uses, too
+MAY_INCLUDE["python"] = {"simulation", "io", "scene"}
 
 PARAMETER_HEADERS = re.compile(r"kedge/[a-z_]+/(parameters|loads|geometry)\.h$")
 LONGEST_FILE = 500

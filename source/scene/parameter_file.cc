@@ -247,6 +247,8 @@ namespace kedge
   {
     if (file.empty())
       return "option --set";
+    if (line == 0)
+      return file;
     return (file == "-" ? "standard input" : file) + ":" + std::to_string(line);
   }
 
@@ -296,6 +298,58 @@ namespace kedge
     entry.name    = entry.section.back();
     entry.section.pop_back();
     put(entries, entry);
+  }
+
+
+
+  void
+  ParameterFile::set(const std::vector<std::string> &section,
+                     const std::string              &name,
+                     const std::string              &value,
+                     const ParameterOrigin          &origin)
+  {
+    Path path;
+    for (const std::string &part : section)
+      path.push_back(squeeze(part));
+    put(entries, {path, squeeze(name), dealii::Utilities::trim(value), origin});
+  }
+
+
+
+  void
+  ParameterFile::print(std::ostream &out) const
+  {
+    print_below({}, out);
+  }
+
+
+
+  void
+  ParameterFile::print_below(const std::vector<std::string> &path, std::ostream &out) const
+  {
+    const std::string indent(2 * path.size(), ' ');
+    Path              below; // names of the sections one level down, in their order
+    const auto        note = [&](const Path &other) {
+      if (other.size() > path.size() && std::equal(path.begin(), path.end(), other.begin()) &&
+          std::find(below.begin(), below.end(), other[path.size()]) == below.end())
+        below.push_back(other[path.size()]);
+    };
+    for (const ParameterSection &section : sections)
+      note(section.path);
+    for (const ParameterEntry &entry : entries)
+      {
+        note(entry.section);
+        if (entry.section == path)
+          out << indent << "set " << entry.name << " = " << entry.value << "\n";
+      }
+    for (const std::string &name : below)
+      {
+        out << indent << "subsection " << name << "\n";
+        Path deeper = path;
+        deeper.push_back(name);
+        print_below(deeper, out);
+        out << indent << "end\n";
+      }
   }
 
 

@@ -3,7 +3,7 @@
 #include <kedge/base/shortened.h>
 #include <kedge/scene/declarations.h>
 #include <kedge/scene/path_scene.h>
-#include <kedge/scene/read_scene.h>
+#include <kedge/scene/print_parameters.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -136,16 +136,29 @@ namespace kedge
 
 
   template <int dim>
-  ExitCode
+  RunEnd
   Run<dim>::run()
   {
-    const StopSignals signals(communicator);
-    while (!clock.finished())
+    const StopSignals     signals(communicator);
+    std::optional<RunEnd> end;
+    while (!end)
+      end = advance([&]() {
+        return signals.stop_requested();
+      });
+    return *end;
+  }
+
+
+
+  template <int dim>
+  std::optional<RunEnd>
+  Run<dim>::advance(const std::function<bool()> &stop_requested)
+  {
+    bool accepted = false;
+    while (!accepted && !clock.finished())
       {
         set_step();
-        const StepReport report = step.attempt({clock.time(), clock.step_size()}, [&]() {
-          return signals.stop_requested();
-        });
+        const StepReport report = step.attempt({clock.time(), clock.step_size()}, stop_requested);
         if (report.interrupted)
           {
             write_checkpoint();
@@ -153,7 +166,8 @@ namespace kedge
           }
         counts.newton += report.newton.iterations;
         counts.linear += report.newton.linear_iterations;
-        if (!report.accepted)
+        accepted = report.accepted;
+        if (!accepted)
           {
             if (reject_step(report))
               continue;
@@ -170,13 +184,15 @@ namespace kedge
             write_checkpoint();
             return finish("numerical_stop", "a material point has lost its pores");
           }
-        if (signals.stop_requested())
+        if (stop_requested())
           {
             write_checkpoint();
             return finish("interrupted", "a signal asked for it");
           }
         write_checkpoint_if_due();
       }
+    if (accepted)
+      return {};
     return finish("finished", "");
   }
 
@@ -335,7 +351,7 @@ namespace kedge
 
 
   template <int dim>
-  ExitCode
+  RunEnd
   Run<dim>::finish(const std::string &status, const std::string &reason)
   {
     const bool finished = status == "finished";
@@ -359,13 +375,13 @@ namespace kedge
         say_where_results_are(finished);
         for (const auto &check : summary.checks)
           if (!check.pass && options.strict)
-            return ExitCode::numerical_stop;
-        return ExitCode::finished;
+            return {ExitCode::numerical_stop, "a check has failed"};
+        return {ExitCode::finished, ""};
       }
     log.say_loads(clock.time());
     out << "kedge: stopped at t = " << clock.time() << " s: " << reason << std::endl;
     say_where_results_are(finished);
-    return status == "interrupted" ? ExitCode::interrupted : ExitCode::numerical_stop;
+    return {status == "interrupted" ? ExitCode::interrupted : ExitCode::numerical_stop, reason};
   }
 
   template <int dim>

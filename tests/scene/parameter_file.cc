@@ -184,3 +184,22 @@ TEST(SceneParameterFile, OptionsWinOverTheFileAndAddToIt)
             }),
             "");
 }
+
+TEST(SceneParameterFile, PrintsWhatItReads)
+{
+  ParameterFile file = read("set Title = a\nsubsection Bodies\nsubsection beam\nset Basis = gimp\n"
+                            "end\nend\nsubsection Output\nend\n");
+  file.set({"Bodies", "ball"}, " Points  per cell", "2 ", {"made by hand", 0});
+  file.set({"Bodies", "beam"}, "Basis", "linear", {"made by hand", 0});
+  file.set({}, "Dimension", "2", {"made by hand", 0});
+  EXPECT_EQ(file.entries[1].origin.describe(), "made by hand");
+  std::ostringstream out;
+  file.print(out);
+  EXPECT_EQ(out.str(),
+            "set Title = a\nset Dimension = 2\nsubsection Bodies\n  subsection beam\n"
+            "    set Basis = linear\n  end\n  subsection ball\n    set Points per cell = 2\n"
+            "  end\nend\nsubsection Output\nend\n");
+  std::ostringstream again;
+  read(out.str()).print(again);
+  EXPECT_EQ(again.str(), out.str());
+}

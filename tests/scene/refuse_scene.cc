@@ -1,5 +1,7 @@
 #include "scene_text.h"
 
+#include <kedge/scene/print_parameters.h>
+
 using namespace scene_tests;
 
 

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <istream>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace kedge
   struct ParameterOrigin
   {
     std::string  file;     ///< empty: the option --set
-    unsigned int line = 0; ///< from 1
+    unsigned int line = 0; ///< from 1; 0: of no file, `file` is the name of a scene made otherwise
 
     std::string
     describe() const;
@@ -91,6 +92,17 @@ namespace kedge
     void
     set(const std::string &assignment);
 
+    /** Sets one entry, which wins over the same one if there is one. */
+    void
+    set(const std::vector<std::string> &section,
+        const std::string              &name,
+        const std::string              &value,
+        const ParameterOrigin          &origin);
+
+    /** All sections and entries in the grammar that read() reads. */
+    void
+    print(std::ostream &out) const;
+
     /** The file's name without folder and ending; "stdin" for standard input. */
     std::string
     scene_name() const;
@@ -105,6 +117,10 @@ namespace kedge
     {
       archive &file_name &entries &sections;
     }
+
+  private:
+    void
+    print_below(const std::vector<std::string> &path, std::ostream &out) const;
   };
 } // namespace kedge
 

@@ -4,8 +4,6 @@
 #include <kedge/scene/parameter_file.h>
 #include <kedge/scene/scene.h>
 
-#include <ostream>
-
 namespace kedge
 {
   /**
@@ -33,18 +31,6 @@ namespace kedge
   template <int dim>
   Scene<dim>
   read_scene(const ParameterFile &file);
-
-  /**
-   * Prints every parameter of a scene file with its meaning and unit, what is
-   * allowed and its default, in the form of a scene file. A section of which
-   * there may be any number is shown once, as <name>.
-   *
-   * @param which  the name of a section, to print that one alone; "json": all of them as
-   * JSON, for editors and scripts; empty: all
-   * @throws UserError if there is no such section
-   */
-  void
-  print_parameters(std::ostream &out, const std::string &which = "");
 } // namespace kedge
 
 #endif

@@ -1,7 +1,6 @@
 #ifndef kedge_simulation_run_h
 #define kedge_simulation_run_h
 
-#include <kedge/base/exceptions.h>
 #include <kedge/io/audit_writer.h>
 #include <kedge/io/checkpoint.h>
 #include <kedge/io/grid_output.h>
@@ -13,22 +12,12 @@
 #include <kedge/io/signals.h>
 #include <kedge/io/summary.h>
 #include <kedge/simulation/run_log.h>
+#include <kedge/simulation/run_options.h>
 #include <kedge/simulation/step.h>
 #include <kedge/time_integration/clock.h>
 
-#include <filesystem>
-
 namespace kedge
 {
-  struct RunOptions
-  {
-    std::filesystem::path    output;
-    bool                     resume = false;
-    bool                     strict = false; ///< a failed check makes the exit code 2
-    std::vector<std::string> notes;          ///< on the scene, for the log
-    std::string              resume_command; ///< with which the user goes on; for the log
-  };
-
   /** A whole run of a scene: the time loop with its books, output and checkpoints. */
   template <int dim>
   class Run
@@ -38,8 +27,35 @@ namespace kedge
     Run(const Scene<dim> &scene, const RunOptions &options, const MPI_Comm communicator);
 
     /** Runs to the end (or the stop) and says how it ended. */
-    ExitCode
+    RunEnd
     run();
+
+    /**
+     * Goes on by one accepted step and writes what is due, or ends the run: not to be
+     * called again once it has said how that ended. Collective.
+     *
+     * @param stop_requested asked between iterations; true, on all ranks, ends the run
+     */
+    std::optional<RunEnd>
+    advance(const std::function<bool()> &stop_requested);
+
+    /** The scene with its points as they are after the last step. */
+    const Model<dim> &
+    current() const
+    {
+      return model;
+    }
+
+    /** What the last step has written into history.csv. */
+    const HistoryRow &
+    last_row() const
+    {
+      return row;
+    }
+
+    /** Keeps the present state on the disk (collective). */
+    void
+    write_checkpoint();
 
   private:
     /** Counts of a run beside the books; part of every checkpoint. */
@@ -83,10 +99,8 @@ namespace kedge
     void
     write_grid();
     void
-    write_checkpoint();
-    void
     write_checkpoint_if_due();
-    ExitCode
+    RunEnd
     finish(const std::string &status, const std::string &reason);
     void
     say_where_results_are(const bool finished);
