@@ -66,6 +66,28 @@ kedge_add_scene_test(scene.patch_traction.3d tests/scenes/patch_traction_3d.prm)
 kedge_add_scene_test(scene.patch_traction.3d.cut tests/scenes/patch_traction_3d.prm
   SET "Constants/shift = 0.81")
 kedge_add_scene_test(scene.dead_load_tension prm/dead_load_tension.prm COMPARE_RANKS 1e-7)
+# what moves a body goes with it: uniform stress under platens through 25 cells, at any place
+# (on two ranks by the scenes' own checks: reactions of 0 are round-off, which cannot be compared)
+kedge_add_scene_test(scene.pressed_by_condition prm/pressed_by_condition.prm)
+kedge_add_scene_test(scene.pressed_by_condition.ranks prm/pressed_by_condition.prm RANKS 2)
+kedge_add_scene_test(scene.pressed_by_condition.elsewhere prm/pressed_by_condition.prm
+  SET "Constants/shift = 0.87" "Constants/steps = 20" "Bodies/block/Points per cell = 3")
+kedge_add_scene_test(scene.pressed_by_force prm/pressed_by_force.prm)
+kedge_add_scene_test(scene.pressed_by_force.ranks prm/pressed_by_force.prm RANKS 2)
+kedge_add_scene_test(scene.pressed_3d tests/scenes/pressed_3d.prm)
+kedge_add_scene_test(scene.pressed_3d.force tests/scenes/pressed_3d.prm
+  SET "Body conditions/upper/Component y = force(force*t)")
+kedge_add_scene_test(scene.moved_section prm/moved_section.prm COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.moved_section.fine prm/moved_section.prm
+  SET "Constants/n = 100" "Checks/force/Tolerance = 0.2 %")
+kedge_add_scene_test(scene.inclined_roller prm/inclined_roller.prm)
+kedge_add_restart_test(scene.restart.pressed_by_condition prm/pressed_by_condition.prm KILLS 3
+  SET "Output/Checkpoint every steps = 5" "Output/Points interval = 0")
+kedge_add_scene_test(scene.lost_support tests/scenes/lost_support.prm EXPECT_EXIT 2
+  EXPECT_STDOUT "stopped at t = 0.25 s: no node of Node conditions/grip is a body's any more"
+  EXPECT_STDERR "^$")
+kedge_add_scene_test(scene.lost_support.note tests/scenes/lost_support.prm OPTIONS --validate
+  EXPECT_STDOUT "grip moves what it holds by 8 cells, but its nodes stay")
 # pressures that follow: uniform stress again, and Archimedes
 kedge_add_scene_test(scene.patch_pressure tests/scenes/patch_pressure.prm)
 kedge_add_scene_test(scene.patch_pressure.0.5 tests/scenes/patch_pressure.prm

@@ -108,6 +108,9 @@ namespace kedge
             for (std::size_t k = 0; k < here.size(); ++k)
               r[k] = here[k] + (r[k] - here[k]) / small_part;
           }
+        const std::vector<double> &here = residual.others();
+        for (std::size_t k = 0; k < here.size(); ++k)
+          linearised.others[k] = here[k] + (linearised.others[k] - here[k]) / small_part;
         replaced_residual = std::move(linearised);
         double norm       = 0.;
         ok                = solve_correction(norm, false).success && std::isfinite(norm);

@@ -1,5 +1,5 @@
-#include <kedge/base/slope.h>
 #include <kedge/fields/node_conditions.h>
+#include <kedge/fields/prescribed_motion.h>
 
 namespace kedge
 {
@@ -101,22 +101,12 @@ namespace kedge
                                  const double       t1) const
   {
     const Motion &motion = conditions[condition_of[std::size_t(node) * dim + d]].motions[d];
-    switch (motion.kind)
-      {
-        case ConditionKind::displacement:
-          return (*motion.expression)({t1}) - (*motion.expression)({t0});
-        case ConditionKind::velocity:
-          return (*motion.expression)({0.5 * (t0 + t1)}) * (t1 - t0);
-        case ConditionKind::motion:
-          {
-            double x[3] = {0, 0, 0};
-            for (int e = 0; e < dim; ++e)
-              x[e] = place[node][e];
-            return (*motion.expression)({x[0], x[1], x[2], t0, t1 - t0});
-          }
-        default:
-          return 0.;
-      }
+    if (!motion.expression)
+      return 0.;
+    double x[3] = {0, 0, 0};
+    for (int e = 0; e < dim && motion.kind == ConditionKind::motion; ++e)
+      x[e] = place[node][e];
+    return prescribed_increment(motion.kind, *motion.expression, x, t0, t1);
   }
 
 
@@ -129,13 +119,12 @@ namespace kedge
                                 const double       dt) const
   {
     const Motion &motion = conditions[condition_of[std::size_t(node) * dim + d]].motions[d];
-    if (motion.kind == ConditionKind::velocity)
-      return (*motion.expression)({t});
-    return slope_from_right(
-      [&](const double s) {
-        return s > 0. ? increment(node, d, t, t + s) : 0.;
-      },
-      dt);
+    if (!motion.expression)
+      return 0.;
+    double x[3] = {0, 0, 0};
+    for (int e = 0; e < dim && motion.kind == ConditionKind::motion; ++e)
+      x[e] = place[node][e];
+    return prescribed_velocity(motion.kind, *motion.expression, x, t, dt);
   }
 
 

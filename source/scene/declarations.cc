@@ -1,4 +1,5 @@
 #include <kedge/base/expression.h>
+#include <kedge/scene/body_condition_section.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/declarations.h>
 #include <kedge/scene/material_declarations.h>
@@ -32,6 +33,7 @@ namespace kedge
                                                     bodies(),
                                                     declare_contact(allow),
                                                     node_conditions(),
+                                                    declare_body_conditions(allow),
                                                     body_force(),
                                                     point_loads(),
                                                     tractions(),

@@ -1,5 +1,6 @@
 #include <kedge/base/expression.h>
 #include <kedge/base/user_errors.h>
+#include <kedge/scene/body_condition_section.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/parameter_reader.h>
@@ -347,6 +348,15 @@ namespace kedge
                    "The blocks are displacements and pore pressures; there is no Pore fluid.");
       });
       errors.attempt([&]() {
+        const LinearSolverKind kind = scene.linear_solver.kind;
+        if (!scene.body_conditions.empty() && kind != LinearSolverKind::automatic &&
+            kind != LinearSolverKind::direct && kind != LinearSolverKind::banded)
+          throw SectionReader(reader, {"Linear solver"})
+            .error("Method",
+                   "Body conditions add equations without a diagonal, which iterative methods "
+                   "cannot solve; take auto or direct.");
+      });
+      errors.attempt([&]() {
         set_elements(reader, scene);
       });
       errors.attempt([&]() {
@@ -431,6 +441,9 @@ namespace kedge
     });
     errors.attempt([&]() {
       scene.contacts = read_contacts(reader);
+    });
+    errors.attempt([&]() {
+      scene.body_conditions = read_body_conditions<dim>(reader);
     });
     errors.attempt([&]() {
       scene.point_loads = read_point_loads<dim>(reader);

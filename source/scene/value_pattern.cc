@@ -275,6 +275,33 @@ namespace kedge
 
   template <int dim>
   ValuePattern
+  ValuePatterns<dim>::body_motion() const
+  {
+    return ValuePattern(
+      "free | fixed | displacement(expression of t) [m, since the start] | "
+      "velocity(expression of t) [m/s] | motion(expression of x, y, z, t, dt) [m, "
+      "from t to t + dt, of what is at x, y, z] | force(expression of t) [N; N/m in 2D, in all]",
+      [c = constants](const auto &text) {
+        std::string force;
+        parse_body_motion(text, *c, force);
+      });
+  }
+
+
+
+  template <int dim>
+  ValuePattern
+  ValuePatterns<dim>::section() const
+  {
+    return ValuePattern("a direction and a place, such as x, 5", [c = constants](const auto &text) {
+      parse_section<dim>(text, *c);
+    });
+  }
+
+
+
+  template <int dim>
+  ValuePattern
   ValuePatterns<dim>::step() const
   {
     return ValuePattern(

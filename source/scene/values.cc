@@ -264,6 +264,42 @@ namespace kedge
 
 
 
+  ComponentCondition
+  parse_body_motion(const std::string &text, const Constants &constants, std::string &force)
+  {
+    std::string name, argument;
+    force.clear();
+    const bool                     is_call = split_call(text, name, argument);
+    const std::vector<std::string> kinds =
+      {"free", "fixed", "displacement", "velocity", "motion", "force"};
+    const std::string word = is_call ? name : text;
+    if (std::find(kinds.begin(), kinds.end(), word) == kinds.end())
+      throw UserError("It must be free, fixed, displacement(expression of t), velocity(expression "
+                      "of t), motion(expression of x, y, z, t, dt) or force(expression of t)." +
+                      did_you_mean(text.substr(0, text.find('(')), kinds));
+    if (!is_call || name != "force")
+      return parse_component_condition(text, constants);
+    Expression(argument, {"t"}, constants);
+    force = argument;
+    return {};
+  }
+
+
+
+  template <int dim>
+  std::pair<unsigned int, double>
+  parse_section(const std::string &text, const Constants &constants)
+  {
+    const std::vector<std::string> parts = split_list(text);
+    if (parts.size() == 2)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (parts[0] == std::string(1, "xyz"[d]))
+          return {d, parse_number(parts[1], constants)};
+    throw UserError("It must be a direction and a place, such as x, 5.");
+  }
+
+
+
   AxisControl
   parse_axis_control(const std::string &text, const Constants &constants)
   {
@@ -342,4 +378,8 @@ namespace kedge
   parse_side<2>(const std::string &);
   template unsigned int
   parse_side<3>(const std::string &);
+  template std::pair<unsigned int, double>
+  parse_section<2>(const std::string &, const Constants &);
+  template std::pair<unsigned int, double>
+  parse_section<3>(const std::string &, const Constants &);
 } // namespace kedge

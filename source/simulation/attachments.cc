@@ -51,12 +51,34 @@ namespace kedge
         }
       if (conditions.size() > most_lines)
         out << "  and " << conditions.size() - most_lines << " more node conditions\n";
-      if (!any && !conditions.empty() && !model.scheme.dynamic)
+      if (!any && !conditions.empty() && model.scene.body_conditions.empty() &&
+          !model.scheme.dynamic)
         throw UserError("No node condition holds a node of a cell with material points (" + idle +
                         "), and without inertia nothing else keeps the bodies from moving." +
                         (dim == 3 ? " In 3D bottom and top are the sides -y and +y, back and front "
                                     "are -z and +z."
                                   : ""));
+    }
+
+    /** Notes conditions whose nodes stand still while what they move leaves them behind. */
+    template <int dim>
+    void
+    describe_travel(const Model<dim> &model, std::ostream &out)
+    {
+      const double h     = model.points.grid().lattice().smallest_cell_size();
+      const double start = model.scene.time.start, end = model.scene.time.end;
+      for (const auto &condition : model.scene.node_conditions)
+        for (const auto &component : condition.components)
+          {
+            if (component.kind != ConditionKind::displacement)
+              continue;
+            const Expression displacement(component.expression, {"t"}, model.scene.constants);
+            const double     cells = std::abs(displacement({end}) - displacement({start})) / h;
+            if (cells > 1.)
+              out << "  note: " << title(condition) << " moves what it holds by " << cells
+                  << " cells, but its nodes stay where they are and hold whatever comes there "
+                     "next; Body conditions go with the body\n";
+          }
     }
 
     /** The point of a body (of any, if there is no name) that is nearest to a place. */
@@ -141,6 +163,9 @@ namespace kedge
     {
       for (const auto &traction : model.scene.tractions)
         describe_faces(model, "Tractions", traction, out);
+      for (const auto &condition : model.scene.body_conditions)
+        if (!condition.section)
+          describe_faces(model, "Body conditions", condition, out);
       for (const auto &pressure : model.scene.surface_pressures)
         describe_faces(model, "Surface pressures", pressure, out);
       for (const auto &flux : model.scene.surface_fluxes)
@@ -206,6 +231,7 @@ namespace kedge
     if (!hint.empty())
       out << "  note: " << hint << "\n";
     describe_conditions(model, out);
+    describe_travel(model, out);
     describe_places(model, out);
     describe_loads(model, step, out);
     out << std::flush;

@@ -3,6 +3,7 @@
 #include <kedge/contact/contact_term.h>
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
+#include <kedge/solid/body_condition_term.h>
 #include <kedge/solid/follower_term.h>
 #include <kedge/solid/history_term.h>
 #include <kedge/solid/inertia_term.h>
@@ -67,7 +68,9 @@ namespace kedge
         FollowerPressures<dim>(following, scene.constants, program),
         bodies.names,
         scheme));
-    add_term(std::make_unique<SupportTerm<dim>>(field, patch, conditions_of(field)));
+    add_term(std::make_unique<SupportTerm<dim>>(field, patch, conditions_of(field), scheme));
+    if (!scene.body_conditions.empty())
+      choose_body_conditions(field, program);
 
     const GhostTerm<dim> *ghosts = nullptr;
     if (scene.stabilisation.method == StabilisationKind::ghost)
@@ -87,6 +90,32 @@ namespace kedge
       }
     if (scene.pore_fluid)
       choose_porous_terms(field, loads, ghosts, program);
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::choose_body_conditions(const unsigned int field, const LoadProgram &program)
+  {
+    std::vector<BodyConditionParameters<dim>> here;
+    std::vector<double>                       stiffness;
+    for (const auto &condition : scene.body_conditions)
+      for (unsigned int b = 0; b < bodies.names.size(); ++b)
+        if (bodies.names[b] == condition.body && bodies.field[b] == field)
+          {
+            here.push_back(condition);
+            stiffness.push_back(p_wave_modulus(bodies.materials[b]) /
+                                points.grid().lattice().smallest_cell_size());
+          }
+    add_term(std::make_unique<BodyConditionTerm<dim>>(field,
+                                                      fields[field]->patch,
+                                                      here,
+                                                      stiffness,
+                                                      bodies.names,
+                                                      scene.constants,
+                                                      program,
+                                                      scheme));
   }
 
 

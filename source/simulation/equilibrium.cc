@@ -30,6 +30,9 @@ namespace kedge
         for (auto &component : condition.components)
           if (component.kind != ConditionKind::free)
             component.kind = ConditionKind::fixed;
+      for (auto &condition : stage.body_conditions)
+        for (auto &line : condition.lines)
+          line.motion.kind = ConditionKind::fixed;
       stage.time.scheme       = SchemeKind::quasi_static;
       stage.equilibrium.steps = 0;
       return stage;

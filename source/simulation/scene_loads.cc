@@ -32,6 +32,16 @@ namespace kedge
             displacements.push_back(component.expression);
         add("Node conditions/" + condition.name, displacements, scene.constants);
       }
+    for (const auto &condition : scene.body_conditions)
+      {
+        std::vector<std::string> expressions;
+        for (const auto &line : condition.lines)
+          if (!line.force.empty())
+            expressions.push_back(line.force);
+          else if (line.motion.kind == ConditionKind::displacement)
+            expressions.push_back(line.motion.expression);
+        add("Body conditions/" + condition.name, expressions, scene.constants);
+      }
   }
 
 

@@ -6,11 +6,48 @@ namespace kedge
   template <int dim>
   SupportTerm<dim>::SupportTerm(const unsigned int                               field,
                                 const Patch<dim>                                &patch,
-                                const std::vector<NodeConditionParameters<dim>> &conditions)
+                                const std::vector<NodeConditionParameters<dim>> &conditions,
+                                const Scheme                                    &scheme)
     : field(field)
     , patch(patch)
     , conditions(conditions)
+    , can_lose(scheme.dynamic)
   {}
+
+
+
+  template <int dim>
+  void
+  SupportTerm<dim>::activate(const MaterialPoints<dim> &)
+  {
+    if (can_lose || conditions.empty())
+      return;
+    std::vector<double> n_now(conditions.size(), 0.);
+    for (unsigned int i = 0; i < patch.nodes.n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (patch.conditions.prescribed(i, d))
+          n_now[patch.conditions.condition(i, d)] += 1.;
+    dealii::Utilities::MPI::sum(n_now, patch.nodes.communicator(), n_now);
+    lost.clear();
+    for (std::size_t c = 0; c < n_now.size(); ++c)
+      if (!n_held.empty() && n_held[c] > 0. && n_now[c] == 0.)
+        lost += (lost.empty() ? "" : ", ") + conditions[c].name;
+    if (lost.empty())
+      n_held = std::move(n_now);
+  }
+
+
+
+  template <int dim>
+  Answer
+  SupportTerm<dim>::add_residual(const Trial<dim> &, Residual<dim> &)
+  {
+    if (lost.empty())
+      return {};
+    return Answer::failure("no node of Node conditions/" + lost +
+                           " is a body's any more: it has moved away from them, and what holds "
+                           "the body itself is a section of Body conditions");
+  }
 
 
 

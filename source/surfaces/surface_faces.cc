@@ -3,6 +3,7 @@
 #include <kedge/surfaces/surface_faces.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kedge
 {
@@ -26,45 +27,92 @@ namespace kedge
 
 
   template <int dim>
+  typename SurfaceFaces<dim>::Face
+  SurfaceFaces<dim>::face_of(const GeneratedPoint<dim> &point,
+                             const unsigned int         surface,
+                             const Expression          &where) const
+  {
+    const SurfaceParameters &p         = parameters[surface];
+    const PointState<dim>   &state     = point.record.state;
+    const int                direction = static_cast<int>(p.side / 2);
+    const double             half      = state.reference_half_lengths[direction];
+    double                   offset = p.side % 2 == 0 ? -half : half, share = 1.;
+    const Face               none{surface, 0., {}, {}};
+    if (p.section)
+      {
+        offset              = *p.section - point.record.location[direction];
+        const double excess = std::abs(offset) / half - 1.;
+        if (excess > smallest_part)
+          return none;
+        if (excess > -smallest_part)
+          share = 0.5;
+      }
+    else if (((point.exposed_sides >> p.side) & 1u) == 0)
+      return none;
+    dealii::Point<dim> centre = point.record.location;
+    centre[direction] += offset;
+    CoveredPart<dim> part = covered_part(where, centre, direction, state.reference_half_lengths);
+    if (part.fraction < smallest_part)
+      return none;
+    part.offset[direction] = offset;
+    return {surface,
+            share * part.fraction * state.reference_volume / (2. * half),
+            point.record.location + part.offset,
+            part.offset};
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceFaces<dim>::extend(SurfaceExtent<dim>    &extent,
+                            const Face            &face,
+                            const PointState<dim> &state) const
+  {
+    const bool is_first = extent.n_faces++ == 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        extent.low[d]          = is_first ? face.place[d] : std::min(extent.low[d], face.place[d]);
+        extent.high[d]         = is_first ? face.place[d] : std::max(extent.high[d], face.place[d]);
+        extent.half_lengths[d] = std::max(extent.half_lengths[d], state.reference_half_lengths[d]);
+      }
+  }
+
+
+
+  template <int dim>
   void
   SurfaceFaces<dim>::attach(std::vector<GeneratedPoint<dim>> &points,
                             const std::vector<std::string>   &body_names)
   {
     faces_of.clear();
+    extents.assign(parameters.size(), SurfaceExtent<dim>());
     for (unsigned int s = 0; s < parameters.size(); ++s)
       {
-        const auto  &p         = parameters[s];
-        const int    direction = static_cast<int>(p.side / 2);
-        const double sign      = p.side % 2 == 0 ? -1. : 1.;
-        const auto   where =
+        const auto &p = parameters[s];
+        const auto  where =
           p.where.empty() ? Expression(1.) : Expression(p.where, {"x", "y", "z"}, constants);
-        bool any = false;
         for (auto &point : points)
           {
             PointState<dim> &state = point.record.state;
-            if (body_names[static_cast<unsigned int>(state.body)] != p.body ||
-                ((point.exposed_sides >> p.side) & 1u) == 0)
+            if (body_names[static_cast<unsigned int>(state.body)] != p.body)
               continue;
-            const double       half   = state.reference_half_lengths[direction];
-            dealii::Point<dim> centre = point.record.location;
-            centre[direction] += sign * half;
-            CoveredPart<dim> part =
-              covered_part(where, centre, direction, state.reference_half_lengths);
-            if (part.fraction < smallest_part)
+            const Face face = face_of(point, s, where);
+            if (face.area == 0.)
               continue;
-            part.offset[direction] = sign * half;
-            faces_of[point.record.id].push_back(
-              {s,
-               part.fraction * state.reference_volume / (2. * half),
-               point.record.location + part.offset,
-               part.offset});
+            faces_of[point.record.id].push_back(face);
+            extend(extents[s], face, state);
             state.loaded = 1.;
-            any          = true;
           }
-        if (!any && !(where.is_constant() && where.value() == 0.)) // Where = 0 switches it off
-          throw UserError(what + " '" + p.name +
-                          "' finds no exposed face: no material point of body '" + p.body +
-                          "' on the given side fulfils Where.");
+        if (extents[s].n_faces > 0 ||
+            (where.is_constant() && where.value() == 0.)) // Where = 0 switches it off
+          continue;
+        if (p.section)
+          throw UserError(what + " '" + p.name + "' finds no material point of body '" + p.body +
+                          "' on its Section, or none where Where is true.");
+        throw UserError(what + " '" + p.name +
+                        "' finds no exposed face: no material point of body '" + p.body +
+                        "' on the given side fulfils Where.");
       }
   }
 

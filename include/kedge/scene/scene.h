@@ -30,25 +30,26 @@ namespace kedge
     GridParameters<dim>                       grid;
     std::vector<NodeConditionParameters<dim>> node_conditions;
     /** One per node condition, or none at all: a body, whose field alone it holds; empty: all. */
-    std::vector<std::string>               node_condition_bodies;
-    std::vector<MaterialParameters>        materials;
-    std::vector<BodyParameters<dim>>       bodies;
-    std::vector<ContactParameters>         contacts;
-    std::optional<PorousParameters>        pore_fluid; ///< saturates all bodies
-    std::vector<SurfacePressureParameters> surface_pressures;
-    std::vector<SurfaceFluxParameters>     surface_fluxes;
-    std::array<std::string, dim>           body_force; ///< expressions of t [m/s^2]
-    std::vector<PointLoadParameters<dim>>  point_loads;
-    std::vector<TractionParameters<dim>>   tractions;
-    TimeParameters                         time;
-    EquilibriumParameters                  equilibrium;
-    NewtonParameters                       newton;
-    LinearSolverParameters                 linear_solver;
-    TransferParameters                     transfer;
-    StabilisationParameters                stabilisation;
-    OutputParameters                       output;
-    std::vector<ProbeParameters<dim>>      probes;
-    std::vector<CheckParameters>           checks;
+    std::vector<std::string>                  node_condition_bodies;
+    std::vector<MaterialParameters>           materials;
+    std::vector<BodyParameters<dim>>          bodies;
+    std::vector<ContactParameters>            contacts;
+    std::optional<PorousParameters>           pore_fluid; ///< saturates all bodies
+    std::vector<SurfacePressureParameters>    surface_pressures;
+    std::vector<SurfaceFluxParameters>        surface_fluxes;
+    std::array<std::string, dim>              body_force; ///< expressions of t [m/s^2]
+    std::vector<PointLoadParameters<dim>>     point_loads;
+    std::vector<TractionParameters<dim>>      tractions;
+    std::vector<BodyConditionParameters<dim>> body_conditions;
+    TimeParameters                            time;
+    EquilibriumParameters                     equilibrium;
+    NewtonParameters                          newton;
+    LinearSolverParameters                    linear_solver;
+    TransferParameters                        transfer;
+    StabilisationParameters                   stabilisation;
+    OutputParameters                          output;
+    std::vector<ProbeParameters<dim>>         probes;
+    std::vector<CheckParameters>              checks;
     std::string parameters; ///< all values used, as a scene file that runs again as it is
     std::map<std::string, std::string> settings; ///< the same, by full names
   };

@@ -104,6 +104,14 @@ namespace kedge
     ValuePattern
     component_condition() const;
 
+    /** The same, or a force. */
+    ValuePattern
+    body_motion() const;
+
+    /** A direction and a place along it. */
+    ValuePattern
+    section() const;
+
     ValuePattern
     step() const;
 

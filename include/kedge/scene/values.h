@@ -82,6 +82,17 @@ namespace kedge
   parse_component_condition(const std::string                   &text,
                             const std::map<std::string, double> &constants);
 
+  /** The same, or force(of t): its expression is put into @p force. */
+  ComponentCondition
+  parse_body_motion(const std::string                   &text,
+                    const std::map<std::string, double> &constants,
+                    std::string                         &force);
+
+  /** "x, 5": a direction, by number, and a place along it. */
+  template <int dim>
+  std::pair<unsigned int, double>
+  parse_section(const std::string &text, const std::map<std::string, double> &constants);
+
   /** strain(of t) or stress(of t). */
   AxisControl
   parse_axis_control(const std::string &text, const std::map<std::string, double> &constants);

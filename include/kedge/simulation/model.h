@@ -67,6 +67,8 @@ namespace kedge
     void
     choose_terms(const unsigned int field, const LoadProgram &program);
     void
+    choose_body_conditions(const unsigned int field, const LoadProgram &program);
+    void
     choose_porous_terms(const unsigned int    field,
                         LoadTerm<dim>        &loads,
                         const GhostTerm<dim> *ghosts,

@@ -1,6 +1,7 @@
 #ifndef kedge_solid_parameters_h
 #define kedge_solid_parameters_h
 
+#include <kedge/grid/parameters.h>
 #include <kedge/surfaces/parameters.h>
 
 #include <deal.II/base/point.h>
@@ -30,6 +31,25 @@ namespace kedge
     std::array<std::string, dim> traction;
     std::string                  pressure; ///< expression of the place now and t [Pa]; empty: none
     bool                         resultant = false; ///< the force is a column of the history
+  };
+
+  /** What a body condition prescribes along one direction. */
+  template <int dim>
+  struct PrescribedLine
+  {
+    dealii::Tensor<1, dim> direction; ///< of length one
+    ComponentCondition     motion;    ///< of the faces along it
+    /** Expression of t: the whole force along it [N; N/m in 2D], under which all faces move
+     * alike; empty: the motion is prescribed. */
+    std::string force;
+  };
+
+  /** How a body moves at its outer faces on one side, or at a section within it. */
+  template <int dim>
+  struct BodyConditionParameters : SurfaceParameters
+  {
+    std::vector<PrescribedLine<dim>> lines;
+    bool                             reaction = false; ///< the history shows its force
   };
 } // namespace kedge
 

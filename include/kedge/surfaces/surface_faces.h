@@ -11,7 +11,7 @@
 
 namespace kedge
 {
-  /** The outer face of a material point, in configuration n. */
+  /** The outer face of a material point, or a section through it, in configuration n. */
   template <int dim>
   struct SurfacePoint
   {
@@ -24,9 +24,19 @@ namespace kedge
     Stencil<dim>       functions;       ///< of the nodes at the face, see functions_at_face()
   };
 
+  /** Where the faces of a surface stood at the start. */
+  template <int dim>
+  struct SurfaceExtent
+  {
+    dealii::Point<dim>     low, high;    ///< of the faces' centres [m]
+    dealii::Tensor<1, dim> half_lengths; ///< of the largest face [m]
+    unsigned int           n_faces = 0;
+  };
+
   /**
-   * Outer faces of bodies on which something is prescribed: the faces belong to
-   * material points and move and deform with them.
+   * Outer faces of bodies on which something is prescribed, or sections through them: the faces
+   * belong to material points and move and deform with them. A section that runs between two
+   * points belongs to both, half each.
    */
   template <int dim>
   class SurfaceFaces
@@ -46,6 +56,13 @@ namespace kedge
      */
     void
     attach(std::vector<GeneratedPoint<dim>> &points, const std::vector<std::string> &body_names);
+
+    /** Of a surface, on all ranks, after attach(). */
+    const SurfaceExtent<dim> &
+    extent(const unsigned int surface) const
+    {
+      return extents[surface];
+    }
 
     /** Reads the faces of this rank's points as they are at the start of a step. */
     void
@@ -83,11 +100,20 @@ namespace kedge
       dealii::Tensor<1, dim> offset; ///< undeformed, from the point to the face's centre [m]
     };
 
+    /** The face that a generated point has on a surface; of no area if it has none. */
+    Face
+    face_of(const GeneratedPoint<dim> &point,
+            const unsigned int         surface,
+            const Expression          &where) const;
+    void
+    extend(SurfaceExtent<dim> &extent, const Face &face, const PointState<dim> &state) const;
+
     const std::string                                    what;
     const std::vector<SurfaceParameters>                 parameters;
     const std::map<std::string, double>                  constants;
     std::unordered_map<std::uint64_t, std::vector<Face>> faces_of; ///< by id of the point
     std::vector<SurfacePoint<dim>>                       faces;
+    std::vector<SurfaceExtent<dim>>                      extents; ///< one per surface
   };
 } // namespace kedge
 
