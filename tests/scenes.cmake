@@ -106,37 +106,6 @@ kedge_add_scene_test(scene.crossing_bodies.linear prm/crossing_bodies.prm
   SET "Bodies/disc/Basis = linear" "Bodies/block/Basis = linear")
 kedge_add_scene_test(scene.crossing_bodies.3d tests/scenes/crossing_bodies_3d.prm
   COMPARE_RANKS 1e-9)
-# contact with a law: energy for steps from half of the CFL step to twenty of them
-kedge_add_scene_test(scene.prisms_collision prm/prisms_collision.prm)
-foreach(cfl 0.5 5 20)
-  kedge_add_scene_test(scene.prisms_collision.cfl_${cfl} prm/prisms_collision.prm
-    SET "Constants/cfl = ${cfl}")
-endforeach()
-# the last cells are filled to 0.6
-kedge_add_scene_test(scene.prisms_collision.cut prm/prisms_collision.prm
-  SET "Constants/x0 = 0.41" "Constants/cfl = 0.5")
-kedge_add_scene_test(scene.block_on_incline prm/block_on_incline.prm)
-kedge_add_scene_test(scene.block_on_incline.sticks prm/block_on_incline.prm
-  SET "Constants/mu = 0.6")
-kedge_add_scene_test(scene.block_on_incline.smooth prm/block_on_incline.prm
-  SET "Constants/mu = 0")
-# gravity that strikes makes the cylinder hop: within two per cent
-kedge_add_scene_test(scene.cylinder_rolling prm/cylinder_rolling.prm)
-kedge_add_scene_test(scene.cylinder_rolling.slides prm/cylinder_rolling.prm
-  SET "Constants/mu = 0.2")
-kedge_add_scene_test(scene.cylinder_rolling.shifted prm/cylinder_rolling.prm
-  SET "Constants/shift = 3/8" "Constants/T = 1.25" "Output/Points interval = 0")
-kedge_add_scene_test(scene.cylinder_rolling.struck prm/cylinder_rolling.prm
-  SET "Constants/lay = 0" "Constants/tolerance = 0.02" "Output/Points interval = 0")
-kedge_add_scene_test(scene.hertz_line prm/hertz_line.prm)
-kedge_add_scene_test(scene.spheres_collision prm/spheres_collision.prm)
-kedge_add_scene_test(scene.spheres_collision.smooth prm/spheres_collision.prm
-  SET "Constants/mu = 0")
-kedge_add_scene_test(refusal.surface_spacing prm/prisms_collision.prm
-  SET "Contact/bars/Surface spacing = 1e-6" EXPECT_EXIT 1
-  EXPECT_STDERR "Surface spacing of .* cells .* more surface points" LABELS refusal)
-kedge_add_scene_test(scene.contact.ranks prm/prisms_collision.prm RANKS 2
-  EXPECT_EXIT 1 EXPECT_STDERR "Contact with a law runs on one process")
 kedge_add_scene_test(scene.quickstart prm/quickstart.prm COMPARE_RANKS 1e-6)
 kedge_add_scene_test(scene.block_3d prm/block_3d.prm
   SET "Constants/h = 0.5" COMPARE_RANKS 1e-6)

@@ -28,28 +28,74 @@ namespace kedge
       return group;
     }
 
-    /** The entries of a law; each of them asks for one. */
+    struct MethodName
+    {
+      const char   *name;
+      ContactMethod method;
+    };
+    constexpr MethodName methods[] = {{"none", ContactMethod::none},
+                                      {"surface points", ContactMethod::surface_points},
+                                      {"augmented lagrangian", ContactMethod::augmented_lagrangian},
+                                      {"lagrange multipliers", ContactMethod::lagrange_multipliers},
+                                      {"penalty", ContactMethod::penalty},
+                                      {"non-linear penalty", ContactMethod::nonlinear_penalty},
+                                      {"contact velocity", ContactMethod::contact_velocity}};
+
+    /** Of methods at nodes: r over the sum of Young's moduli, as in the thesis. */
+    constexpr double nodal_penalty_factor = 5.;
+
+    /** What entries a method has no use for. */
+    void
+    refuse_foreign_entries(const SectionReader &section, const ContactMethod method)
+    {
+      const auto refuse = [&](const std::string &entry, const std::string &why) {
+        if (!section.is_empty(entry))
+          throw section.error(entry, why);
+      };
+      const std::string text = "Method = " + section.text("Method");
+      if (method == ContactMethod::none && !section.is_empty("Method"))
+        for (const char *entry :
+             {"Friction coefficient", "Adhesion", "Penalty factor", "Surface spacing"})
+          refuse(entry,
+                 "With Method = none the bodies do not act on each other. Leave one of the two "
+                 "out.");
+      if (!is_nodal(method))
+        return;
+      for (const char *entry : {"Adhesion", "Surface spacing"})
+        refuse(entry,
+               text + " finds contact at nodes of the grid and does not know this entry; Method "
+                      "= surface points does. Leave one of the two out.");
+      if (method == ContactMethod::lagrange_multipliers ||
+          method == ContactMethod::contact_velocity)
+        refuse("Penalty factor", text + " has no penalty. Leave one of the two out.");
+      if (method != ContactMethod::augmented_lagrangian && method != ContactMethod::penalty &&
+          !section.is_empty("Friction coefficient") && section.number("Friction coefficient") > 0.)
+        refuse("Friction coefficient",
+               text + " knows contact without friction only. Take 0, or another method.");
+    }
+
+    /** The entries of a law; without a method each of them asks for one. */
     void
     read_law(const SectionReader &section, ContactParameters &contact)
     {
-      const std::string                       method    = section.text("Method");
+      for (const auto &known : methods)
+        if (section.text("Method") == known.name)
+          contact.method = known.method;
+      refuse_foreign_entries(section, contact.method);
+      if (is_nodal(contact.method))
+        contact.penalty_factor = nodal_penalty_factor;
       const std::pair<const char *, double *> entries[] = {
         {"Friction coefficient", &contact.friction},
         {"Adhesion", &contact.adhesion},
         {"Penalty factor", &contact.penalty_factor},
         {"Surface spacing", &contact.spacing}};
-      if (method == "surface points")
-        contact.method = ContactMethod::surface_points;
       for (const auto &[entry, value] : entries)
         {
           if (section.is_empty(entry))
             continue;
-          if (method == "none")
-            throw section.error(entry,
-                                "With Method = none the bodies do not act on each other. Leave one "
-                                "of the two out.");
-          *value         = section.number(entry);
-          contact.method = ContactMethod::surface_points;
+          *value = section.number(entry);
+          if (contact.method == ContactMethod::none)
+            contact.method = ContactMethod::surface_points;
         }
     }
   } // namespace
@@ -62,38 +108,50 @@ namespace kedge
   {
     const auto group = allow.text("names of sections of Bodies, separated by commas");
     using Range      = NumberRange;
-    return {"Contact",
-            "Bodies that may move apart: those of the first group share no nodes of the grid with "
-            "those of the second, and each group moves by itself. With one of the entries below "
-            "they touch and slide on each other, else they pass through each other. "
-            "Bodies between which no section stands move as one where they meet on the grid.",
-            SectionKind::named,
-            {{"First", std::nullopt, group, "The bodies of the first group."},
-             {"Second", std::nullopt, group, "The bodies of the second group."},
-             {"Method",
-              "",
-              allow.one_of({"none", "surface points"}).or_empty(),
-              "How the groups act on each other: none lets them pass through each other; surface "
-              "points finds contact at points of their surfaces and keeps the books of energy. "
-              "Empty: surface points if one of the entries below is given, else none."},
-             {"Friction coefficient",
-              "",
-              allow.number(Range::not_negative()).or_empty(),
-              "Largest shear stress of a contact over its pressure [-]. Empty: 0."},
-             {"Adhesion",
-              "",
-              allow.number(Range::not_negative()).or_empty(),
-              "Shear stress that a closed contact bears whatever its pressure [Pa]. Empty: 0."},
-             {"Penalty factor",
-              "",
-              allow.number(Range::positive()).or_empty(),
-              "Stiffness of the contact, pressure over overlap, in M/h: the harmonic mean of the "
-              "bodies' moduli of one-dimensional compression over the size of a cell [-]. "
-              "Empty: 2."},
-             {"Surface spacing",
-              "",
-              allow.number(Range::positive()).or_empty(),
-              "Distance of the points of the surfaces [m]. Empty: a fifth of a cell."}}};
+    return {
+      "Contact",
+      "Bodies that may move apart: those of the first group share no nodes of the grid with "
+      "those of the second, and each group moves by itself. With one of the entries below "
+      "they touch and slide on each other, else they pass through each other. "
+      "Bodies between which no section stands move as one where they meet on the grid.",
+      SectionKind::named,
+      {{"First", std::nullopt, group, "The bodies of the first group."},
+       {"Second", std::nullopt, group, "The bodies of the second group."},
+       {"Method",
+        "",
+        allow
+          .one_of({"none",
+                   "surface points",
+                   "augmented lagrangian",
+                   "lagrange multipliers",
+                   "penalty",
+                   "non-linear penalty",
+                   "contact velocity"})
+          .or_empty(),
+        "How the groups act on each other: none lets them pass through each other; surface "
+        "points finds contact at points of their surfaces and keeps the books of energy. The "
+        "others are those of Pretti (2024), chapter 5, at the nodes that both groups have: "
+        "bodies then touch from up to a cell away. "
+        "Empty: surface points if one of the entries below is given, else none."},
+       {"Friction coefficient",
+        "",
+        allow.number(Range::not_negative()).or_empty(),
+        "Largest shear stress of a contact over its pressure [-]. Empty: 0."},
+       {"Adhesion",
+        "",
+        allow.number(Range::not_negative()).or_empty(),
+        "Shear stress that a closed contact bears whatever its pressure [Pa]. Empty: 0."},
+       {"Penalty factor",
+        "",
+        allow.number(Range::positive()).or_empty(),
+        "Stiffness of the contact, pressure over overlap, in M/h: the harmonic mean of the "
+        "bodies' moduli of one-dimensional compression over the size of a cell [-]. Of methods "
+        "at nodes: force over displacement of a node, in the sum of Young's moduli, in space "
+        "times the size of a cell. Empty: 2; at nodes 5."},
+       {"Surface spacing",
+        "",
+        allow.number(Range::positive()).or_empty(),
+        "Distance of the points of the surfaces [m]. Empty: a fifth of a cell."}}};
   }
 
 

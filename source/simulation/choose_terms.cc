@@ -1,6 +1,8 @@
 // Which terms a scene has: the only place that asks which physics is on.
 #include <kedge/base/exceptions.h>
 #include <kedge/contact/contact_term.h>
+#include <kedge/contact/contact_velocity_term.h>
+#include <kedge/contact/nodal_law_term.h>
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
 #include <kedge/solid/body_condition_term.h>
@@ -11,6 +13,8 @@
 #include <kedge/solid/solid_term.h>
 #include <kedge/solid/support_term.h>
 #include <kedge/surfaces/surface_term.h>
+
+#include <set>
 
 namespace kedge
 {
@@ -183,6 +187,30 @@ namespace kedge
       const double stiffness = contact.penalty_factor / (softness * cell_size);
       return {&first, &second, stiffness, stiffness * (1. - poisson) / (1. - 0.5 * poisson)};
     }
+
+    /** Parts of a cell's diagonal where the non-linear penalty bends, and its final stiffness over
+     * that at the start: those of the thesis's section 5.5.1.2. */
+    constexpr double first_bend = -0.01, last_bend = -0.03, stiffening = 100.;
+
+    /** The law at nodes: r = beta (sum of Young's moduli), in space times the size of a cell. */
+    template <int dim>
+    NodalLaw
+    nodal_law_of(const ContactParameters &contact,
+                 const double             moduli,
+                 const Lattice<dim>      &lattice,
+                 const double             alpha)
+    {
+      const double h = lattice.smallest_cell_size() * lattice.node_intervals;
+      NodalLaw     law;
+      law.stiffness       = contact.penalty_factor * moduli * (dim == 3 ? h : 1.);
+      law.friction        = contact.friction;
+      law.alpha           = alpha;
+      const double size   = lattice.h.norm() * lattice.node_intervals;
+      law.first_bend      = first_bend * size;
+      law.last_bend       = last_bend * size;
+      law.final_stiffness = stiffening * law.stiffness;
+      return law;
+    }
   } // namespace
 
 
@@ -195,7 +223,7 @@ namespace kedge
       points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
     std::map<std::string, const BodySurface<dim> *> surfaces;
     const auto with_law = [](const ContactParameters &contact) {
-      return contact.method != ContactMethod::none;
+      return contact.method == ContactMethod::surface_points;
     };
     for (unsigned int b = 0; b < bodies.names.size(); ++b)
       {
@@ -221,7 +249,10 @@ namespace kedge
                                                          spacing))
                .surface();
       }
-    if (!surfaces.empty() && dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+    bool any = !surfaces.empty();
+    for (const ContactParameters &contact : scene.contacts)
+      any = any || is_nodal(contact.method);
+    if (any && dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
       throw UserError("Contact with a law runs on one process, not on several. Start kedge "
                       "without mpirun, or leave the entries of the law out of Contact.");
     for (const ContactParameters &contact : scene.contacts)
@@ -238,6 +269,67 @@ namespace kedge
                 contact_of(*surfaces.at(first), *surfaces.at(second), scene, bodies, contact, h));
           add_term(std::make_unique<ContactTerm<dim>>(contact, pairs, scheme, h));
         }
+      else if (is_nodal(contact.method))
+        choose_nodal_contact_term(contact);
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::choose_nodal_contact_term(const ContactParameters &contact)
+  {
+    if (scene.pore_fluid)
+      throw UserError("Contact/" + contact.name +
+                      ": Methods at nodes know dry bodies only. Leave the Pore fluid out, or take "
+                      "Method = surface points.");
+    double                                moduli = 0.; // the means of both groups
+    std::array<std::vector<bool>, 2>      takes_part;
+    std::array<std::set<unsigned int>, 2> fields_of;
+    for (const unsigned int k : {0u, 1u})
+      {
+        const auto &group = k == 0 ? contact.first : contact.second;
+        for (unsigned int b = 0; b < bodies.names.size(); ++b)
+          {
+            takes_part[k].push_back(std::find(group.begin(), group.end(), bodies.names[b]) !=
+                                    group.end());
+            if (!takes_part[k].back())
+              continue;
+            moduli += bodies.young_moduli[b] / static_cast<double>(group.size());
+            fields_of[k].insert(bodies.field[b]);
+          }
+      }
+    const NodalLaw law =
+      nodal_law_of(contact, moduli, points.grid().lattice(), scheme.dynamic ? scheme.alpha_f : 1.);
+    for (const unsigned int a : fields_of[0])
+      for (const unsigned int b : fields_of[1])
+        add_nodal_contact(contact,
+                          law,
+                          {{{a, b}}, {{&fields[a]->patch, &fields[b]->patch}}, takes_part});
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::add_nodal_contact(const ContactParameters  &contact,
+                                const NodalLaw           &law,
+                                const ContactFields<dim> &pair)
+  {
+    if (contact.method != ContactMethod::contact_velocity)
+      {
+        add_term(std::make_unique<NodalLawTerm<dim>>(contact, pair, law));
+        return;
+      }
+    if (!scheme.dynamic)
+      throw UserError("Contact/" + contact.name +
+                      ": Method = contact velocity needs inertia (Time/Scheme).");
+    add_term(std::make_unique<ContactVelocityTerm<dim>>(
+      contact.name,
+      pair,
+      std::array<const NodeMatrix<dim> *, 2>{
+        {&fields[pair.number[0]]->transfer->mass(), &fields[pair.number[1]]->transfer->mass()}},
+      law.alpha));
   }
 
 #define KEDGE_INSTANTIATE(dim)                                                     \

@@ -1,123 +1,14 @@
 // Contact between the fields of small scenes: its tangent, its books, what it refuses.
 #include "../equations/term_cloud.h"
-#include "../scene/scene_text.h"
+#include "two_blocks.h"
 
 #include <kedge/contact/contact_term.h>
-#include <kedge/simulation/step.h>
 
 using namespace kedge;
-using namespace scene_tests;
+using namespace contact_tests;
 
 namespace
 {
-  std::string
-  repeated(const std::string &a, const std::string &b, const std::string &c, const int dim)
-  {
-    return a + b + (dim == 3 ? c : "");
-  }
-
-  /** Two blocks one above the other that meet obliquely; the lower one stands askew to the grid. */
-  template <int dim>
-  std::string
-  two_blocks(const std::string &law, const std::string &scheme, const std::string &gap = "0.01")
-  {
-    const std::string box_a =
-      dim == 2 ? "box(0.13, 0.1; 1.4, 0.6)" : "box(0.13, 0.1, 0.2; 1.4, 0.6, 1.1)";
-    const std::string box_b =
-      dim == 2 ? "box(0.4, 0.6 + gap; 1.1, 1.2)" : "box(0.4, 0.6 + gap, 0.3; 1.1, 1.2, 0.9)";
-    return "set Dimension = " + std::to_string(dim) + R"(
-subsection Constants
-  set gap = )" +
-           gap + R"(
-end
-subsection Grid
-  set Extent = )" +
-           repeated("2", ", 1.6", ", 1.6", dim) + R"(
-  set Cells  = )" +
-           repeated("10", ", 8", ", 8", dim) + R"(
-end
-subsection Materials
-  subsection soft
-    set Density         = 1000
-    set Young's modulus = 1e5
-    set Poisson's ratio = 0.3
-  end
-  subsection stiff
-    set Density         = 2000
-    set Young's modulus = 4e5
-    set Poisson's ratio = 0.2
-  end
-end
-subsection Bodies
-  subsection lower
-    set Geometry = )" +
-           box_a + R"(
-    set Material = soft
-    set Initial velocity = )" +
-           repeated("0.3", "; 0.5 + 0.3*x", "; 0.1", dim) + R"(
-    set Points per cell = 2
-  end
-  subsection upper
-    set Geometry = )" +
-           box_b + R"(
-    set Material = stiff
-    set Initial velocity = )" +
-           repeated("-0.5 + 0.1*y", "; -1", "; 0.4*x", dim) + R"(
-    set Points per cell = 2
-  end
-end
-subsection Contact
-  subsection blocks
-    set First  = lower
-    set Second = upper
-)" + law + R"(
-  end
-end
-subsection Time
-  set Scheme = )" +
-           scheme + R"(
-  set End    = 1
-  set Step   = 0.01
-end
-)";
-  }
-
-  template <int dim>
-  struct Setting
-  {
-    explicit Setting(const std::string &text)
-      : model(read_scene<dim>(parse(text)), MPI_COMM_SELF)
-      , step(model)
-    {
-      model.create_points();
-      step.initialise_points(0., false);
-      step.book_state();
-      model.ledger.set_start();
-    }
-
-    const ContactTerm<dim> &
-    contact() const
-    {
-      return dynamic_cast<const ContactTerm<dim> &>(*model.terms.back());
-    }
-
-    void
-    run(const unsigned int n, const double dt)
-    {
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          const auto report = step.attempt({time, dt});
-          ASSERT_TRUE(report.accepted) << report.cause;
-          step.commit();
-          time += dt;
-        }
-    }
-
-    Model<dim> model;
-    Step<dim>  step;
-    double     time = 0.;
-  };
-
   template <typename Dimension>
   class ContactTermTest : public testing::Test
   {};
@@ -137,44 +28,17 @@ TYPED_TEST(ContactTermTest, TangentIsTheSlopeOfTheResidual)
       {
         Setting<dim> setting(two_blocks<dim>(law, scheme));
         setting.run(2, 0.01); // closed and sliding in part
-        auto &model = setting.model;
-        setting.step.activate();
-        StepEquations<dim>        equations(model.patches(),
-                                     model.unknowns,
-                                     model.terms,
-                                     model.scheme,
-                                     model.scene.linear_solver);
-        std::vector<unsigned int> n_nodes;
-        std::vector<int>          radius;
-        for (const auto &field : model.fields)
-          {
-            n_nodes.push_back(field->patch.nodes.n_local());
-            radius.push_back(field->tangent_radius);
-          }
-        equations.reinit(radius);
-        Trial<dim> trial;
-        trial.begin({0.02, 0.01}, model.unknowns, n_nodes);
-        for (const auto &field : model.fields)
-          ASSERT_TRUE(field->transfer->to_nodes(trial).success);
-        for (auto &term : model.terms)
-          term->start(trial);
-        equations.start(trial, 0.);
+        setting.start_step(0.01);
         // from where the bodies press each other, and directions follow them no more
-        double norm = 0.;
-        equations.evaluate();
-        for (const double part : {0.9, 0.1, 0.1})
-          {
-            ASSERT_TRUE(equations.solve_correction(norm, false).success);
-            equations.retract(part);
-            equations.evaluate();
-          }
+        setting.correct({0.9, 0.1, 0.1});
         unsigned int n_closed = 0;
-        equations.evaluate();
-        for (const auto &half : setting.contact().halves())
+        setting.equations->evaluate();
+        const auto &contact = dynamic_cast<const ContactTerm<dim> &>(*setting.model.terms.back());
+        for (const auto &half : contact.halves())
           for (const auto &sample : half.samples())
             n_closed += half.response(sample).pressure > 0.;
         EXPECT_GT(n_closed, 4u);
-        test::expect_slope_of_residual(equations);
+        test::expect_slope_of_residual(*setting.equations);
       }
 }
 

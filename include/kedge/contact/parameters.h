@@ -9,9 +9,21 @@ namespace kedge
   /** How bodies of two groups act on each other. */
   enum class ContactMethod
   {
-    none,          ///< they pass through each other
-    surface_points ///< points of their surfaces, discrete gradient of the gap's energy
+    none,                 ///< they pass through each other
+    surface_points,       ///< points of their surfaces, discrete gradient of the gap's energy
+    augmented_lagrangian, ///< at common nodes of the grid, as are all that follow
+    lagrange_multipliers,
+    penalty,
+    nonlinear_penalty,
+    contact_velocity
   };
+
+  /** Whether a method finds contact at the nodes that the bodies share. */
+  inline bool
+  is_nodal(const ContactMethod method)
+  {
+    return method > ContactMethod::surface_points;
+  }
 
   /**
    * Two groups of bodies that may move apart: those of one group share no nodes
@@ -24,7 +36,7 @@ namespace kedge
     ContactMethod            method         = ContactMethod::none;
     double                   friction       = 0.; ///< mu [-]
     double                   adhesion       = 0.; ///< [Pa]
-    double                   penalty_factor = 2.; ///< beta of eps = beta M / h [-]
+    double                   penalty_factor = 2.; ///< beta of eps = beta M / h, or of (5.105) [-]
     double                   spacing        = 0.; ///< of the surfaces' points [m]; 0: h/5
   };
 } // namespace kedge

@@ -10,6 +10,10 @@
 
 namespace kedge
 {
+  struct NodalLaw;
+  template <int dim>
+  struct ContactFields;
+
   /**
    * What a scene is made of: the points on their grid, the fields, the terms of the
    * balance, its unknowns and its books. It owns all of these and does nothing with
@@ -78,6 +82,12 @@ namespace kedge
     conditions_of(const unsigned int field) const;
     void
     choose_contact_terms();
+    void
+    choose_nodal_contact_term(const ContactParameters &contact);
+    void
+    add_nodal_contact(const ContactParameters  &contact,
+                      const NodalLaw           &law,
+                      const ContactFields<dim> &pair);
     template <class T>
     T &
     add_term(std::unique_ptr<T> term);
