@@ -199,6 +199,9 @@ kedge_add_scene_test(scene.column_dynamic_saturated prm/column_dynamic_saturated
   COMPARE_RANKS 1e-7)
 kedge_add_scene_test(scene.column_dynamic_saturated.midpoint prm/column_dynamic_saturated.prm
   SET "Time/Scheme = midpoint" "Checks/energy books/Tolerance = 1e-4")
+kedge_add_scene_test(scene.undrained_wave prm/undrained_wave.prm)
+kedge_add_scene_test(scene.undrained_wave.short_steps prm/undrained_wave.prm
+  SET "Constants/courant = 0.125" "Output/Points interval = 0")
 kedge_add_scene_test(scene.column_drained prm/column_drained.prm
   SET "Output/Points interval = 0")
 kedge_add_scene_test(scene.column_drained.original prm/column_drained.prm

@@ -182,7 +182,7 @@ namespace kedge
         V / fluid.reference_density *
         (step.scheme.content_factor() * r.content_increment + step.dt * trial.known_rate);
       // the stabilisation at the volume of step n, where it is linear
-      r.pp_fluctuation    = V * trial.determinant * step.soil.stabilisation / step.scheme.theta;
+      r.pp_fluctuation    = V * trial.determinant * step.stabilisation / step.scheme.theta;
       r.fluid_fluctuation = r.pp_fluctuation * (trial.fluctuation - trial.fluctuation_n);
     }
 
@@ -259,6 +259,18 @@ namespace kedge
                    (K_f * step.scheme.theta);
     }
   } // namespace
+
+
+
+  double
+  stabilisation_of_step(const Soil &soil, const double inertia, const double inverse_length)
+  {
+    if (soil.stabilisation == 0.)
+      return 0.;
+    const double n   = soil.fluid.initial_porosity;
+    const double rho = (1. - n) * soil.grain_density + n * soil.fluid.reference_density;
+    return 1. / (1. / soil.stabilisation + rho * inertia / (12. * inverse_length * inverse_length));
+  }
 
 
 

@@ -25,9 +25,15 @@ namespace kedge
   {
     for (const auto &batch : patch.points.batches)
       {
-        const Soil &soil = soil_of_body[batch.body];
-        PoreStep<dim>
-          step{soil, pore_scheme, trial.dt, alpha, trial.inertia, 1. / trial.cell_size, {}};
+        const Soil   &soil = soil_of_body[batch.body];
+        PoreStep<dim> step{soil,
+                           pore_scheme,
+                           trial.dt,
+                           alpha,
+                           trial.inertia,
+                           1. / trial.cell_size,
+                           stabilisation_of_step(soil, trial.inertia, 1. / trial.cell_size),
+                           {}};
         for (int d = 0; d < dim && soil.has_body_force; ++d)
           step.acceleration[d] = trial.body_force[d];
         const Material &material = material_of_body[batch.body];

@@ -149,8 +149,8 @@ namespace kedge
        {"Stabilisation",
         "",
         allow.number(NumberRange::not_negative()).or_empty(),
-        "Factor of the polynomial pressure projection, times 1/(2 G) [-]; 0: none; empty: 1 for "
-        "Pressure space = equal, none for coarse."},
+        "Factor of the polynomial pressure projection, times 1/(2 G), less in short steps with "
+        "inertia [-]; 0: none; empty: 1 for Pressure space = equal, none for coarse."},
        {"Surface penalty",
         "10",
         allow.number(NumberRange::positive()),

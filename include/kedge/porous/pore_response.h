@@ -16,8 +16,22 @@ namespace kedge
     double                 alpha;          ///< fraction of u at which balance is stated
     double                 inertia;        ///< d a/d u [1/s^2]; 0 in quasi-static runs
     double                 inverse_length; ///< of a cell [1/m]
+    double                 stabilisation;  ///< tau of stabilisation_of_step() [1/Pa]
     dealii::Tensor<1, dim> acceleration;   ///< of the body force, f [m/s^2]
   };
+
+  /**
+   * tau of (4.179) in a step: that of the statics, tau_0 = Soil::stabilisation, in
+   * series with the inertia of a cell,
+   *   1/tau = 1/tau_0 + rho h^2/12 d a/d u,  rho = (1 - n_0) rho_s + n_0 rho_0,
+   * so that short steps, in which inertia alone answers to pressure, are not given a
+   * storage that the soil does not have (theory_soil.md 3) [1/Pa].
+   *
+   * @param inertia        d a/d u [1/s^2]
+   * @param inverse_length 1/h [1/m]
+   */
+  double
+  stabilisation_of_step(const Soil &soil, const double inertia, const double inverse_length);
 
   /** Points in a trial state, one in each lane: the nodal fields there, gradients by x_n. */
   template <int dim>
