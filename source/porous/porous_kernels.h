@@ -279,56 +279,77 @@ namespace kedge
       contract(const int row, const int T, double (&column)[dim + 1][n]) const
       {
         if (T == dim + 1)
-          {
-            for (int B = 0; B < n; ++B)
-              column[dim][B] = r.pp_fluctuation[lane] * fluctuation[B];
-            for (int m = 0; m < dim; ++m)
-              std::fill_n(column[m], n, 0.);
-            return;
-          }
-        double weight[dim + 1][dim + 1]; // [m][gradient S or value]
-        if (row < dim)
-          momentum_weights(row, T, weight);
+          of_fluctuation(column);
+        else if (row < dim)
+          of_momentum(row, T, column);
         else
-          fluid_weights(T, weight);
-        for (int m = 0; m <= dim; ++m)
-          for (int B = 0; B < n; ++B)
-            {
-              double add = weight[m][dim] * basis.value[B];
-              for (int S = 0; S < dim; ++S)
-                add += weight[m][S] * basis.gradient[S][B];
-              column[m][B] = add;
-            }
+          of_fluid(T, column);
       }
 
     private:
+      using Column = double[n];
+
+      /** What is known to be zero in a column of the sum is not multiplied: see PoreResponse. */
       void
-      momentum_weights(const int i, const int T, double (&weight)[dim + 1][dim + 1]) const
+      set_to_gradients(const Pack (&weight)[dim], Column &column) const
       {
-        for (int m = 0; m < dim; ++m)
+        for (int B = 0; B < n; ++B)
           {
-            for (int S = 0; S < dim; ++S)
-              weight[m][S] = (T < dim ? r.uu[i][T % dim][m][S] : r.uu_value[i][m][S])[lane];
-            weight[m][dim] = T == dim && m == i ? r.mass_inertia[lane] : 0.;
+            column[B] = weight[0][lane] * basis.gradient[0][B];
+            for (int S = 1; S < dim; ++S)
+              column[B] += weight[S][lane] * basis.gradient[S][B];
           }
-        for (int S = 0; S < dim; ++S)
-          weight[dim][S] = 0.;
-        weight[dim][dim] = (T < dim ? r.up[i][T % dim] : r.up_value[i])[lane];
       }
 
       void
-      fluid_weights(const int T, double (&weight)[dim + 1][dim + 1]) const
+      set_to_values(const Pack &weight, Column &column) const
       {
-        const int R = T % dim;
+        for (int B = 0; B < n; ++B)
+          column[B] = weight[lane] * basis.value[B];
+      }
+
+      void
+      add_values(const Pack &weight, Column &column) const
+      {
+        for (int B = 0; B < n; ++B)
+          column[B] += weight[lane] * basis.value[B];
+      }
+
+      void
+      of_momentum(const int i, const int T, Column (&column)[dim + 1]) const
+      {
+        const bool of_gradient = T < dim;
+        for (int m = 0; m < dim; ++m)
+          set_to_gradients(of_gradient ? r.uu[i][T % dim][m] : r.uu_value[i][m], column[m]);
+        if (!of_gradient)
+          add_values(r.mass_inertia, column[i]);
+        set_to_values(of_gradient ? r.up[i][T % dim] : r.up_value[i], column[dim]);
+      }
+
+      void
+      of_fluid(const int T, Column (&column)[dim + 1]) const
+      {
+        const int  R           = T % dim;
+        const bool of_gradient = T < dim;
         for (int m = 0; m < dim; ++m)
           {
-            for (int S = 0; S < dim; ++S)
-              weight[m][S] = (T < dim ? r.pu[R][m][S] : r.pu_value[m][S])[lane];
-            weight[m][dim] = T < dim ? r.pu_inertia[R][m][lane] : 0.;
+            set_to_gradients(of_gradient ? r.pu[R][m] : r.pu_value[m], column[m]);
+            if (of_gradient)
+              add_values(r.pu_inertia[R][m], column[m]);
           }
-        for (int S = 0; S < dim; ++S)
-          weight[dim][S] = T < dim ? r.pp[R][S][lane] : 0.;
-        weight[dim][dim] = (T < dim ? r.pp_weight[R] : r.pp_value)[lane];
+        if (!of_gradient)
+          return set_to_values(r.pp_value, column[dim]);
+        set_to_gradients(r.pp[R], column[dim]);
+        add_values(r.pp_weight[R], column[dim]);
+      }
+
+      void
+      of_fluctuation(Column (&column)[dim + 1]) const
+      {
+        for (int m = 0; m < dim; ++m)
+          std::fill_n(column[m], n, 0.);
+        for (int B = 0; B < n; ++B)
+          column[dim][B] = r.pp_fluctuation[lane] * fluctuation[B];
       }
     };
 
