@@ -236,7 +236,9 @@ namespace kedge
         activated = false;
         activate();
       }
-    if (!model.scheme.carries_acceleration)
+    // what holds a body by multipliers is no part of that residual: such bodies begin without
+    // acceleration, or the reactions would swing about their means for ever
+    if (!model.scheme.carries_acceleration || !model.scene.body_conditions.empty())
       return;
     const Residual<dim> &residual = step_equations.residual_at_rest(t);
     for (unsigned int f = 0; f < model.fields.size(); ++f)

@@ -169,6 +169,18 @@ namespace kedge
 
 
 
+  template <int dim>
+  typename BodyConditionTerm<dim>::Place
+  BodyConditionTerm<dim>::place(const SurfacePoint<dim> &face) const
+  {
+    Place result{{0., 0., 0.}};
+    for (int d = 0; d < dim; ++d)
+      result.coordinates[d] = patch.points.location[face.slot][d] + face.offset[d];
+    return result;
+  }
+
+
+
   /** g_f: how far a face is to move in the step. */
   template <int dim>
   double
@@ -177,17 +189,14 @@ namespace kedge
                                  const StepTimes                   &times,
                                  const typename Trial<dim>::Motion &motion) const
   {
-    double place[3] = {0, 0, 0};
-    for (int d = 0; d < dim; ++d)
-      place[d] = patch.points.location[face.slot][d] + face.offset[d];
-    double result =
-      line.by_force
-        ? 0.
-        : prescribed_increment(line.kind, line.motion, place, times.t_n, times.t_n + times.dt);
+    const Place  x = place(face);
+    const double t = times.t_n, dt = times.dt;
+    const double result =
+      line.by_force ? 0. : prescribed_increment(line.kind, line.motion, x.coordinates, t, t + dt);
     if (!scheme.dynamic)
       return result;
     double off =
-      line.by_force ? 0. : -prescribed_velocity(line.kind, line.motion, place, times.t_n, times.dt);
+      line.by_force ? 0. : -prescribed_velocity(line.kind, line.motion, x.coordinates, t, dt);
     for_nodes_of_face(patch, face, [&](const unsigned int node, const double N) {
       for (int d = 0; d < dim && N != 0.; ++d)
         off += N * line.direction[d] * motion.velocity_n[std::size_t(node) * dim + d];
@@ -213,6 +222,7 @@ namespace kedge
 
 
 
+  /** Means of a nodal vector over the faces: B v, this rank's share. */
   template <int dim>
   std::vector<double>
   BodyConditionTerm<dim>::weighted_means(const std::vector<double> &nodal) const

@@ -75,10 +75,6 @@ namespace kedge
     void
     book(const Trial<dim> &trial, const Residual<dim> &residual, Ledger &ledger) const override;
 
-    /** Means of a nodal vector over the faces: sum_f A_f phi_k a . v(x_f), this rank's share. */
-    std::vector<double>
-    weighted_means(const std::vector<double> &nodal) const;
-
   private:
     /** A direction along which a condition prescribes something. */
     struct Line
@@ -99,14 +95,24 @@ namespace kedge
       double       value;
     };
 
+    /** x, y, z [m]. */
+    struct Place
+    {
+      double coordinates[3];
+    };
+
     template <typename Visit>
     void
     for_faces(const Visit &visit) const;
+    Place
+    place(const SurfacePoint<dim> &face) const;
     double
     demand(const Line                        &line,
            const SurfacePoint<dim>           &face,
            const StepTimes                   &times,
            const typename Trial<dim>::Motion &motion) const;
+    std::vector<double>
+    weighted_means(const std::vector<double> &nodal) const;
     UnknownIndex
     unknown(const unsigned int multiplier) const
     {
