@@ -226,6 +226,14 @@ kedge_add_scene_test(scene.footing_harmonic.waves prm/footing_harmonic.prm
 set(clay "Materials/skeleton/Preconsolidation pressure = 4e5"
   "Materials/skeleton/Critical state slope = 0.964" "Materials/skeleton/Surface alpha = 0.3"
   "Materials/skeleton/Surface gamma = 0.9")
+# the water table in the middle of a cell, at a line of the grid, just above and just below one
+kedge_add_scene_test(scene.water_table prm/water_table.prm)
+foreach(yw 16 16.02 16.98)
+  kedge_add_scene_test(scene.water_table.${yw} prm/water_table.prm SET "Constants/yw = ${yw}")
+endforeach()
+kedge_add_scene_test(refusal.dry_body prm/water_table.prm
+  SET "Surface pressures/table/Body = upper" EXPECT_EXIT 1
+  EXPECT_STDERR "The body is dry \\(Bodies/upper/Saturated\\)" LABELS refusal)
 kedge_add_scene_test(scene.layer_at_rest prm/layer_at_rest.prm)
 kedge_add_scene_test(scene.layer_at_rest.linear prm/layer_at_rest.prm
   SET "Bodies/soil/Basis = linear" "Materials/skeleton/Model = improved_hencky")

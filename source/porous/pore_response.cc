@@ -274,6 +274,42 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** The skeleton alone, of a dry body. */
+    template <int dim, bool with_tangent>
+    void
+    respond_dry(const ForceStress<dim, Pack> &stress,
+                const PoreStep<dim>          &step,
+                const PoreTrial<dim>         &trial,
+                const Balance<dim>           &b,
+                PoreResponse<dim>            &r)
+    {
+      const PackMask valid = r.valid;
+      r                    = PoreResponse<dim>(); // all zero
+      r.valid              = valid;
+      const Pack V         = trial.volume;
+      r.mass            = V * (step.soil.grain_density * (1. - step.soil.fluid.initial_porosity));
+      r.mass_inertia    = r.mass * step.inertia;
+      r.end_determinant = trial.determinant * (1. + b.excess_end);
+      for (int i = 0; i < dim; ++i)
+        {
+          r.momentum_value[i] = r.mass * (trial.acceleration[i] - step.acceleration[i]);
+          for (int R = 0; R < dim; ++R)
+            {
+              r.momentum_gradient[i][R] = V * stress.stress[i][R];
+              for (int m = 0; m < dim && with_tangent; ++m)
+                for (int S = 0; S < dim; ++S)
+                  r.uu[i][R][m][S] = V * stress.tangent[i][R][m][S];
+            }
+        }
+      r.fluid_value = V * (step.soil.dry_storage * trial.pressure);
+      r.pp_value    = V * step.soil.dry_storage;
+    }
+  } // namespace
+
+
+
   template <int dim, bool with_tangent>
   void
   evaluate_pore_response(const ForceStress<dim, Pack> &stress,
@@ -286,6 +322,8 @@ namespace kedge
     r.valid = stress.valid && balance.excess > -1. && balance.excess_end > -1.;
     if (!any(r.valid))
       return;
+    if (step.soil.dry_storage > 0.)
+      return respond_dry<dim, with_tangent>(stress, step, trial, balance, r);
     find_flow(step, trial, balance);
     find_end(step, trial, balance, r);
     find_residual(stress, step, trial, balance, r);

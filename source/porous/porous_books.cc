@@ -88,10 +88,13 @@ namespace kedge
       const unsigned int slot = patch.points.slot_of[number];
       if (slot == StepPoints<dim>::no_slot)
         return;
-      const PoreFluid &fluid = soils[static_cast<unsigned int>(state.body)].fluid;
+      const Soil &soil = soils[static_cast<unsigned int>(state.body)];
+      smallest         = std::min(smallest, state.porosity);
+      if (soil.dry_storage > 0.)
+        return;
+      const PoreFluid &fluid = soil.fluid;
       fluid_masses[slot]     = fluid.density(state.pore_pressure) * state.porosity *
                            determinant(state.deformation_gradient) * state.reference_volume;
-      smallest       = std::min(smallest, state.porosity);
       energies[slot] = fluid_masses[slot] * fluid.energy(state.pore_pressure);
     });
     double sums[3] = {0., 0., 0.};

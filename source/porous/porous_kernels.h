@@ -440,10 +440,11 @@ namespace kedge
         const double         fluctuation = trial.fluctuation[lane],
                      fluctuation_n       = trial.fluctuation_n[lane];
         update.pressure                  = r.end_pressure[lane];
-        update.fluctuation  = fluctuation_n + (fluctuation - fluctuation_n) / step.scheme.theta;
-        update.porosity     = fluid.porosity(J);
-        update.mass         = volume * (step.soil.grain_density * grains +
-                                fluid.density(update.pressure) * (J - grains));
+        update.fluctuation = fluctuation_n + (fluctuation - fluctuation_n) / step.scheme.theta;
+        update.porosity    = fluid.porosity(J);
+        const double fluid_density =
+          step.soil.dry_storage > 0. ? 0. : fluid.density(update.pressure);
+        update.mass = volume * (step.soil.grain_density * grains + fluid_density * (J - grains));
         update.content_rate = update.content_rate_change = 0.;
         if (step.scheme.carries_rates)
           {

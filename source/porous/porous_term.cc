@@ -71,8 +71,10 @@ namespace kedge
         state.pore_pressure = pressure[body](x);
         state.porosity      = fluid.initial_porosity;
         // mass is that of grains without pores up to here
-        state.mass = (1. - state.porosity) * state.mass +
-                     state.porosity * fluid.density(state.pore_pressure) * state.reference_volume;
+        state.mass *= 1. - state.porosity;
+        if (bodies.soils[body].dry_storage == 0.)
+          state.mass +=
+            state.porosity * fluid.density(state.pore_pressure) * state.reference_volume;
       }
   }
 

@@ -168,6 +168,11 @@ namespace kedge
             "0",
             allow.expression(coordinates("xyz"), coordinate_words("xyz")),
             "Of a saturated body at the start [Pa]; x, y, z is the place at the start."},
+           {"Saturated",
+            "true",
+            allow.truth(),
+            "Whether the Pore fluid, if there is one, is in it; false: a dry body, with pores at "
+            "pressure 0."},
            {"Body force", "true", allow.truth(), "Whether the section Body force acts on it."}}};
       }
 

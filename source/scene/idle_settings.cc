@@ -92,6 +92,9 @@ namespace kedge
     add_of_stabilisation(scene.stabilisation.method, idle);
     if (scene.equilibrium.steps == 0)
       idle.add({"Equilibrium"}, {"Duration"}, "without Equilibrium/Steps.");
+    for (const auto &body : scene.bodies)
+      if (!scene.pore_fluid)
+        idle.add({"Bodies", body.name}, {"Saturated"}, "without a Pore fluid.");
     if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &body) {
           return body.body_force;
         }))

@@ -1,6 +1,9 @@
+#include <kedge/base/expression.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/read_pore_fluid.h>
 #include <kedge/scene/values.h>
+
+#include <algorithm>
 
 namespace kedge
 {
@@ -58,6 +61,37 @@ namespace kedge
         throw SectionReader(reader, {"Mapping"})
           .error("Lumping", "In saturated bodies (Pore fluid) the mass matrix must be consistent.");
     }
+
+    /** Which bodies the fluid is not in. */
+    template <int dim>
+    std::vector<bool>
+    read_dry_bodies(const ParameterReader &reader, const Scene<dim> &scene)
+    {
+      std::vector<bool> is_dry;
+      for (const auto &body : scene.bodies)
+        {
+          const SectionReader section(reader, {"Bodies", body.name});
+          is_dry.push_back(!section.truth("Saturated"));
+          if (!is_dry.back())
+            continue;
+          const Expression pressure(body.initial_pore_pressure, {"x", "y", "z"}, scene.constants);
+          if (!(pressure.is_constant() && pressure.value() == 0.))
+            throw section.error("Initial pore pressure", "The body is dry: Saturated = false.");
+          for (const char *surfaces : {"Surface pressures", "Surface fluxes"})
+            for (const std::string &name : reader.names(surfaces))
+              if (SectionReader(reader, {surfaces, name}).text("Body") == body.name)
+                throw SectionReader(reader, {surfaces, name})
+                  .error("Body", "The body is dry (Bodies/" + body.name + "/Saturated).");
+          if (scene.stabilisation.method == StabilisationKind::ghost)
+            throw section.error("Saturated",
+                                "The ghost penalty couples pressures of all bodies; with dry ones "
+                                "take Stabilisation/Method = aggregation or none.");
+        }
+      if (std::find(is_dry.begin(), is_dry.end(), false) == is_dry.end())
+        throw SectionReader(reader, {"Pore fluid"})
+          .error("Density", "No body is Saturated; leave the Pore fluid out.");
+      return is_dry;
+    }
   } // namespace
 
 
@@ -103,6 +137,7 @@ namespace kedge
                                ? PressureMap::lumped
                                : PressureMap::consistent;
     result.surface_penalty = section.number("Surface penalty");
+    result.is_dry          = read_dry_bodies(reader, scene);
     return result;
   }
 

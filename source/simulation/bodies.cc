@@ -7,6 +7,9 @@ namespace kedge
 {
   namespace
   {
+    /** Storage of dry bodies in that of the skeleton: it must not matter beside any other. */
+    constexpr double dry_storage = 1e-10;
+
     /** Whether a contact keeps two bodies apart. */
     bool
     is_between(const ContactParameters &contact, const std::string &a, const std::string &b)
@@ -110,7 +113,11 @@ namespace kedge
         result.soils.push_back({PoreFluid(fluid),
                                 material.density,
                                 0.5 * scene.pore_fluid->stabilisation / G,
-                                body.body_force});
+                                body.body_force,
+                                0.});
+        const auto &is_dry = scene.pore_fluid->is_dry;
+        if (!is_dry.empty() && is_dry[result.soils.size() - 1])
+          result.soils.back().dry_storage = dry_storage / p_wave_modulus(result.materials.back());
         result.initial_pore_pressure.push_back(body.initial_pore_pressure);
       }
     find_fields(scene.contacts, result);

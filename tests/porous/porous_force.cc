@@ -21,7 +21,7 @@ namespace
 
   /** Soil in which all terms count: stresses and pressures of order one. */
   Soil
-  some_soil(const unsigned int body)
+  some_soil(const unsigned int body, const double dry_storage = 0.)
   {
     PoreFluidParameters parameters;
     parameters.initial_porosity       = body == 0 ? 0.8 : 0.75;
@@ -30,7 +30,7 @@ namespace
     parameters.hydraulic_conductivity = 0.4;
     parameters.kozeny_carman          = body == 0;
     parameters.reference_gravity      = 9.;
-    return {PoreFluid(parameters), 2.4, body == 0 ? 0.7 : 0., true};
+    return {PoreFluid(parameters), 2.4, body == 0 ? 0.7 : 0., true, dry_storage};
   }
 
   /** A scheme and what goes with it. */
@@ -59,13 +59,16 @@ namespace
   template <int dim>
   struct Problem
   {
-    Problem(const Cloud<dim> &cloud, const Setting &setting, const bool plastic)
+    Problem(const Cloud<dim> &cloud,
+            const Setting    &setting,
+            const bool        plastic,
+            const double      dry_storage = 0.) // of the second body
       : cloud(cloud)
       , setting(setting)
       , patch(cloud.patch)
       , points(patch.points)
       , force(materials(plastic),
-              {some_soil(0), some_soil(1)},
+              {some_soil(0), some_soil(1, dry_storage)},
               setting.alpha,
               PoreScheme(setting.time))
     {
@@ -254,6 +257,18 @@ TYPED_TEST(PorousForceTest, TangentIsTheResidualsSlope)
 TYPED_TEST(PorousForceTest, TangentIsTheResidualsSlopeWhereItYields)
 {
   check_all_tangents<TypeParam::value>(true);
+}
+
+// a dry body beside a saturated one, with a storage that counts
+TYPED_TEST(PorousForceTest, TangentIsTheResidualsSlopeBesideADryBody)
+{
+  constexpr int dim = TypeParam::value;
+  for (const Setting &setting : settings())
+    {
+      SCOPED_TRACE(setting.name);
+      const Cloud<dim> cloud(all_bases[2], 2, 33);
+      check_tangent(Problem<dim>(cloud, setting, false, 0.3));
+    }
 }
 
 TYPED_TEST(PorousForceTest, VolumeOfFluidChangesByItsContentAlone)

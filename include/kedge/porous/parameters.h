@@ -5,6 +5,7 @@
 #include <kedge/surfaces/parameters.h>
 
 #include <string>
+#include <vector>
 
 namespace kedge
 {
@@ -15,7 +16,7 @@ namespace kedge
     lumped
   };
 
-  /** The fluid that saturates all bodies of a scene, and how its pressure is stabilised. */
+  /** The fluid that saturates the bodies of a scene, and how its pressure is stabilised. */
   struct PorousParameters
   {
     PoreFluidParameters fluid;                   ///< but the initial porosity, which a material has
@@ -23,6 +24,7 @@ namespace kedge
     double              stabilisation   = 1;     ///< of (4.179): tau = stabilisation/(2 G) [-]
     PressureMap         pressure_map    = PressureMap::consistent;
     double surface_penalty = 10; ///< of SurfacePressures, times conductivity over cell size [-]
+    std::vector<bool> is_dry;    ///< one per body: whether the fluid is not in it; empty: in all
   };
 
   /** A pore pressure on outer faces of a body. */

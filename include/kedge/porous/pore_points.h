@@ -15,6 +15,12 @@ namespace kedge
     double    grain_density;  ///< rho_s [kg/m^3]
     double    stabilisation;  ///< tau of (4.179) [1/Pa]; 0: none
     bool      has_body_force; ///< whether the body force acts on it
+    /**
+     * Of a dry body, whose pores hold nothing that weighs and have no pressure [1/Pa]; 0: it is
+     * saturated. A storage that is small against all others, so that the pressure is zero at nodes
+     * that no saturated point reaches.
+     */
+    double dry_storage = 0.;
   };
 
   /**
