@@ -54,6 +54,7 @@ namespace kedge
     condition        = 0.;
     weakest_equation = -1;
     linear_tolerance = 0.;
+    tell_solver      = true;
     for (unsigned int f = 0; f < patches.size(); ++f)
       diagonal[f].assign(tangent.equations_of_field(f).size(), 0.);
 
@@ -186,12 +187,43 @@ namespace kedge
       term->add_tangent(*trial, tangent);
     tangent.assemble();
     if (tangent.take_new_pattern())
-      linear_solver.pattern_changed();
+      {
+        linear_solver.pattern_changed();
+        describe_nodes();
+        tell_solver = true;
+      }
+    if (tell_solver && displacements.dim == dim)
+      linear_solver.set_blocks(displacements);
+    tell_solver = false;
     for (unsigned int f = 0; f < patches.size(); ++f)
       if (unknowns.fields[f].measure_diagonal)
         diagonal[f] = tangent.diagonal(f);
     for (auto &term : terms)
       term->prepare_solver(*trial, tangent, linear_solver);
+  }
+
+
+
+  /** Whose displacements the equations of a new pattern are, if they are nothing else. */
+  template <int dim>
+  void
+  StepEquations<dim>::describe_nodes()
+  {
+    displacements     = MixedBlocks();
+    displacements.dim = 0; // not known
+    for (const auto &field : unknowns.fields)
+      if (field.n_components != dim)
+        return;
+    if (unknowns.n_others() > 0)
+      return;
+    displacements.dim = dim;
+    for (unsigned int f = 0; f < patches.size(); ++f)
+      for (const unsigned int k : tangent.equations_of_field(f))
+        {
+          const auto x = patches[f]->node_position(k / dim);
+          displacements.component.push_back(static_cast<unsigned char>(k % dim));
+          displacements.position.insert(displacements.position.end(), x.begin_raw(), x.end_raw());
+        }
   }
 
 

@@ -101,6 +101,8 @@ namespace kedge
   void
   LinearSolver::set_blocks(const MixedBlocks &blocks)
   {
+    if (!this->blocks)
+      backend.reset(); // one that knows more may serve better
     this->blocks = &blocks;
     if (backend)
       backend->forget();
@@ -153,8 +155,11 @@ namespace kedge
         case LinearSolverKind::banded:
           return make_banded_backend();
         case LinearSolverKind::krylov_ilu:
+          return make_krylov_backend(traits, false);
         case LinearSolverKind::krylov_amg:
-          return make_krylov_backend(traits, kind == LinearSolverKind::krylov_amg);
+          if (blocks && !traits.mixed) // of displacements alone
+            return make_mixed_backend(*blocks);
+          return make_krylov_backend(traits, true);
         case LinearSolverKind::krylov_blocks:
           return make_mixed_backend(*blocks);
         default:

@@ -238,6 +238,10 @@ namespace kedge
                          dim,
                          rigid_motions(matrix, blocks),
                          dim == 2 ? 3 : 6);
+    u.resize(n_displacements);
+    residual_u.resize(n_displacements);
+    if (n_global_pressures == 0)
+      return;
     std::vector<double> constant(n_pressures);
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
       if (place[matrix.values().first_row + i] >= 0)
@@ -246,8 +250,6 @@ namespace kedge
     with_inertia = !blocks.by_inertia.column.empty();
     if (with_inertia)
       inertial_pressures.reinit(pressure_matrix(matrix, blocks.by_inertia), 1, constant, 1);
-    u.resize(n_displacements);
-    residual_u.resize(n_displacements);
     p.resize(n_pressures);
     residual_p.resize(n_pressures);
     padded.resize(matrix.n_rows());
@@ -256,8 +258,30 @@ namespace kedge
 
 
 
+  /** Pressures first, and what is left then for the displacements. */
   void
   MixedPreconditioner::multiply(const DistributedMatrix &matrix, const double *x, double *y)
+  {
+    const unsigned int n     = matrix.n_rows();
+    const int         *where = place.data() + matrix.values().first_row;
+    std::fill(residual_u.begin(), residual_u.end(), 0.);
+    if (n_global_pressures == 0)
+      product.assign(n, 0.);
+    else
+      multiply_pressures(matrix, x);
+    for (unsigned int i = 0; i < n; ++i)
+      if (where[i] < 0)
+        residual_u[-1 - where[i] - first_displacement] = x[i] - product[i];
+    displacements.multiply(residual_u, u);
+    for (unsigned int i = 0; i < n; ++i)
+      y[i] = where[i] >= 0 ? p[where[i] - first_pressure] : u[-1 - where[i] - first_displacement];
+  }
+
+
+
+  /** p = S^-1 x_p, and its part G p in the residual of the displacements. */
+  void
+  MixedPreconditioner::multiply_pressures(const DistributedMatrix &matrix, const double *x)
   {
     const unsigned int n     = matrix.n_rows();
     const int         *where = place.data() + matrix.values().first_row;
@@ -274,12 +298,5 @@ namespace kedge
     for (unsigned int i = 0; i < n; ++i)
       padded[i] = where[i] >= 0 ? p[where[i] - first_pressure] : 0.;
     matrix.multiply(padded.data(), product.data());
-    std::fill(residual_u.begin(), residual_u.end(), 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      if (where[i] < 0)
-        residual_u[-1 - where[i] - first_displacement] = x[i] - product[i];
-    displacements.multiply(residual_u, u);
-    for (unsigned int i = 0; i < n; ++i)
-      y[i] = where[i] >= 0 ? p[where[i] - first_pressure] : u[-1 - where[i] - first_displacement];
   }
 } // namespace kedge

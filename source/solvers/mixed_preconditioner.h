@@ -16,7 +16,7 @@ namespace kedge
    * the Schur complement of stiffness and of inertia: of the two the smaller
    * counts (Cahouet and Chabert 1988). It is never off by more than a factor
    * of two for what C, with permeability, compressibility and stabilisation,
-   * decides.
+   * decides. Without pressures it is A's cycle alone.
    */
   class MixedPreconditioner
   {
@@ -40,6 +40,8 @@ namespace kedge
     pressure_matrix(const DistributedMatrix &matrix, const SparseSystem &added) const;
     std::vector<double>
     rigid_motions(const DistributedMatrix &matrix, const MixedBlocks &blocks) const;
+    void
+    multiply_pressures(const DistributedMatrix &matrix, const double *x);
 
     int dim = 2;
 

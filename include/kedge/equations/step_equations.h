@@ -109,6 +109,8 @@ namespace kedge
     LinearStatus
     factorise();
     void
+    describe_nodes();
+    void
     follow_supports(const UnknownVector &at_rest);
     std::string
     describe_equation(const std::int64_t equation) const;
@@ -123,6 +125,8 @@ namespace kedge
     std::vector<std::vector<double>> diagonal; ///< of the last tangent, by field
     LinearSolver                     linear_solver;
     double                           linear_tolerance = 0.;
+    MixedBlocks                      displacements;          ///< nodes of the equations
+    bool                             tell_solver = true; ///< of a step, before its first system
 
     Trial<dim>                  *trial = nullptr;
     UnknownVector                base, correction;
