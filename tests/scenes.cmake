@@ -313,6 +313,9 @@ kedge_add_restart_test(scene.restart.krylov_ilu.2ranks prm/spinning_body.prm KIL
   SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Linear solver/Method = krylov-ilu")
 kedge_add_restart_test(scene.restart.krylov_amg prm/column_quasi_static.prm KILLS 1
   SET "Output/Checkpoint every steps = 3" "Linear solver/Method = krylov-amg")
+kedge_add_restart_test(scene.restart.multigrid benchmarks/multigrid/block.prm KILLS 1
+  SET "Constants/n = 6" "Constants/steps = 12" "Output/Checkpoint every steps = 3"
+    "Linear solver/Method = krylov-amg")
 kedge_add_restart_test(scene.restart.krylov_blocks benchmarks/saturated/strip.prm KILLS 1
   SET "Constants/steps = 24" "Output/Checkpoint every steps = 4"
     "Linear solver/Method = krylov-blocks")
@@ -470,3 +473,8 @@ kedge_add_test(benchmark.saturated LABELS benchmark
   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/benchmarks/saturated/run.py
     --kedge $<TARGET_FILE:kedge> --output ${CMAKE_CURRENT_BINARY_DIR}/saturated
     --meshes 16 64 --conductivities 1e-2 1e-6 1e-12 --no-direct --limit 1.9)
+# At most 12 per correction on the lattice, whatever the size and the shape.
+kedge_add_test(benchmark.multigrid LABELS benchmark
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/benchmarks/multigrid/run.py --kedge
+    $<TARGET_FILE:kedge> --output ${CMAKE_CURRENT_BINARY_DIR}/multigrid --cells 8 12
+    --cases linear gimp ball --methods krylov-amg --limit 12)

@@ -33,7 +33,9 @@ namespace kedge
         {{"Method",
           "auto",
           allow.one_of({"auto", "banded", "direct", "krylov-ilu", "krylov-amg", "krylov-blocks"}),
-          "auto chooses by size and bandwidth. krylov-blocks: for saturated soil."},
+          "auto chooses by size and bandwidth. krylov-amg: multigrid, on the grid's lattice in a "
+          "single process. krylov-blocks: algebraic multigrid, of displacements and of pore "
+          "pressures."},
          {"Tolerance",
           "1e-10",
           allow.number(NumberRange::positive()),

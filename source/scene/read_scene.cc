@@ -342,12 +342,6 @@ namespace kedge
           }))
         errors.throw_if_any(); // the rest would ask for it
       errors.attempt([&]() {
-        if (scene.linear_solver.kind == LinearSolverKind::krylov_blocks && !scene.pore_fluid)
-          throw SectionReader(reader, {"Linear solver"})
-            .error("Method",
-                   "The blocks are displacements and pore pressures; there is no Pore fluid.");
-      });
-      errors.attempt([&]() {
         const LinearSolverKind kind = scene.linear_solver.kind;
         if (!scene.body_conditions.empty() && kind != LinearSolverKind::automatic &&
             kind != LinearSolverKind::direct && kind != LinearSolverKind::banded)

@@ -39,6 +39,13 @@ namespace kedge
   /** @p blocks must last as long as the backend; their matrices may change with each system. */
   std::unique_ptr<LinearSolver::Backend>
   make_mixed_backend(const MixedBlocks &blocks);
+
+  /**
+   * Multigrid for displacements, whose nodes @p blocks knows: on their lattice if one rank
+   * has all equations, algebraic otherwise. @p blocks must last as long as the backend.
+   */
+  std::unique_ptr<LinearSolver::Backend>
+  make_lattice_backend(const MixedBlocks &blocks);
 } // namespace kedge
 
 #endif

@@ -131,6 +131,10 @@ namespace kedge
     class BlockIncompleteLu : public IncompleteLu
     {
     public:
+      explicit BlockIncompleteLu(const double damping)
+        : damping(damping)
+      {}
+
       void
       reinit(const DistributedMatrix &matrix) override
       {
@@ -293,6 +297,8 @@ namespace kedge
         for (int c = 0; c < n; ++c)
           if (c >= first_row[i + 1] - first_row[i] || block[c][c] == 0.)
             block[c][c] = 1.;
+          else
+            block[c][c] += damping;
       }
 
       /** By columns, which are in order but for those of other ranks. */
@@ -387,6 +393,7 @@ namespace kedge
         return sum;
       }
 
+      const double                    damping;
       ForeignRows                     overlap;
       std::vector<int>                first_row; ///< of each node, and the number of rows
       std::vector<int>                node_of_row;
@@ -401,10 +408,10 @@ namespace kedge
   } // namespace
 
   std::unique_ptr<IncompleteLu>
-  make_incomplete_lu(const int block_size)
+  make_incomplete_lu(const int block_size, const double damping)
   {
     if (block_size == 2)
-      return std::make_unique<BlockIncompleteLu<2>>();
-    return std::make_unique<BlockIncompleteLu<3>>();
+      return std::make_unique<BlockIncompleteLu<2>>(damping);
+    return std::make_unique<BlockIncompleteLu<3>>(damping);
   }
 } // namespace kedge

@@ -32,9 +32,12 @@ namespace kedge
     multiply(const DistributedMatrix &matrix, const double *x, double *y) = 0;
   };
 
-  /** @param block_size rows that nodes have: 2 or 3; not all need as many */
+  /**
+   * @param block_size rows that nodes have: 2 or 3; not all need as many
+   * @param damping    is added to the diagonal of what is factorised, 1 otherwise
+   */
   std::unique_ptr<IncompleteLu>
-  make_incomplete_lu(const int block_size);
+  make_incomplete_lu(const int block_size, const double damping = 0.);
 } // namespace kedge
 
 #endif

@@ -58,7 +58,7 @@ namespace kedge
 
 
   void
-  MixedPreconditioner::analyse(const SparseSystem &system, const MixedBlocks &blocks)
+  MixedPreconditioner::analyse(const SparseSystem &system)
   {
     dim = blocks.dim;
     std::vector<unsigned char> own(blocks.component);
@@ -202,8 +202,7 @@ namespace kedge
 
   /** Translations and rotations of the scaled unknowns, zero at those that are none. */
   std::vector<double>
-  MixedPreconditioner::rigid_motions(const DistributedMatrix &matrix,
-                                     const MixedBlocks       &blocks) const
+  MixedPreconditioner::rigid_motions(const DistributedMatrix &matrix) const
   {
     const int           n_rotations = dim == 2 ? 1 : 3;
     const auto          n           = static_cast<std::size_t>(n_displacements);
@@ -232,12 +231,9 @@ namespace kedge
 
 
   void
-  MixedPreconditioner::factorise(const DistributedMatrix &matrix, const MixedBlocks &blocks)
+  MixedPreconditioner::factorise(const DistributedMatrix &matrix)
   {
-    displacements.reinit(displacement_matrix(matrix),
-                         dim,
-                         rigid_motions(matrix, blocks),
-                         dim == 2 ? 3 : 6);
+    displacements.reinit(displacement_matrix(matrix), dim, rigid_motions(matrix), dim == 2 ? 3 : 6);
     u.resize(n_displacements);
     residual_u.resize(n_displacements);
     if (n_global_pressures == 0)

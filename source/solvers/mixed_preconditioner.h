@@ -2,6 +2,7 @@
 #define kedge_solvers_mixed_preconditioner_h
 
 #include "multigrid.h"
+#include "preconditioner.h"
 
 #include <kedge/solvers/mixed_blocks.h>
 
@@ -18,20 +19,25 @@ namespace kedge
    * of two for what C, with permeability, compressibility and stabilisation,
    * decides. Without pressures it is A's cycle alone.
    */
-  class MixedPreconditioner
+  class MixedPreconditioner : public Preconditioner
   {
   public:
+    /** @p blocks must last as long as this; their matrices may change with each system. */
+    explicit MixedPreconditioner(const MixedBlocks &blocks)
+      : blocks(blocks)
+    {}
+
     /** Finds out which equations are which (collective). */
     void
-    analyse(const SparseSystem &system, const MixedBlocks &blocks);
+    analyse(const SparseSystem &system) override;
 
     /** Sets up the multigrids of new values (collective); may throw. */
     void
-    factorise(const DistributedMatrix &matrix, const MixedBlocks &blocks);
+    factorise(const DistributedMatrix &matrix) override;
 
     /** y = P^-1 x; @p matrix gives G (collective). */
     void
-    multiply(const DistributedMatrix &matrix, const double *x, double *y);
+    multiply(const DistributedMatrix &matrix, const double *x, double *y) override;
 
   private:
     std::unique_ptr<Epetra_CrsMatrix>
@@ -39,11 +45,12 @@ namespace kedge
     std::unique_ptr<Epetra_CrsMatrix>
     pressure_matrix(const DistributedMatrix &matrix, const SparseSystem &added) const;
     std::vector<double>
-    rigid_motions(const DistributedMatrix &matrix, const MixedBlocks &blocks) const;
+    rigid_motions(const DistributedMatrix &matrix) const;
     void
     multiply_pressures(const DistributedMatrix &matrix, const double *x);
 
-    int dim = 2;
+    const MixedBlocks &blocks;
+    int                dim = 2;
 
     /**
      * Place of each global equation among the pressures, or -1 - its place

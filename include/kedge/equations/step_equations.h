@@ -125,7 +125,7 @@ namespace kedge
     std::vector<std::vector<double>> diagonal; ///< of the last tangent, by field
     LinearSolver                     linear_solver;
     double                           linear_tolerance = 0.;
-    MixedBlocks                      displacements;          ///< nodes of the equations
+    MixedBlocks                      displacements;      ///< nodes of the equations
     bool                             tell_solver = true; ///< of a step, before its first system
 
     Trial<dim>                  *trial = nullptr;

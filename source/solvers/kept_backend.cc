@@ -1,22 +1,27 @@
 #include "backend.h"
 #include "gmres.h"
+#include "lattice_multigrid.h"
 #include "mixed_preconditioner.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace kedge
 {
   namespace
   {
-    /** Iterations per digit above this multiple of those with fresh blocks ask for new ones. */
+    /** Iterations per digit above this multiple of those when it was new ask for a new one. */
     constexpr double worn = 1.5;
 
-    /** GMRES with a block preconditioner, kept within a step as long as it serves. */
-    class MixedBackend : public LinearSolver::Backend
+    /** Makes the preconditioner of a new pattern. */
+    using Choice = std::function<std::unique_ptr<Preconditioner>(const SparseSystem &)>;
+
+    /** GMRES with a preconditioner that is kept within a step as long as it serves. */
+    class KeptBackend : public LinearSolver::Backend
     {
     public:
-      explicit MixedBackend(const MixedBlocks &blocks)
-        : blocks(blocks)
+      explicit KeptBackend(const Choice &choose)
+        : choose(choose)
       {}
 
       LinearStatus
@@ -26,7 +31,8 @@ namespace kedge
         if (new_pattern)
           {
             matrix.reinit(system);
-            preconditioner.analyse(system, blocks);
+            preconditioner = choose(system);
+            preconditioner->analyse(system);
             is_worn = true;
           }
         matrix.set_values(system);
@@ -59,7 +65,7 @@ namespace kedge
       {
         try
           {
-            preconditioner.factorise(matrix, blocks);
+            preconditioner->factorise(matrix);
           }
         catch (const std::exception &exception)
           {
@@ -85,7 +91,7 @@ namespace kedge
           matrix.multiply(from, to);
         };
         const auto precondition = [&](const double *from, double *to) {
-          preconditioner.multiply(matrix, from, to);
+          preconditioner->multiply(matrix, from, to);
         };
         const GmresResult result =
           solve_gmres(multiply, precondition, scaled, x, tolerance, max_iterations, communicator);
@@ -102,18 +108,34 @@ namespace kedge
         return status;
       }
 
-      const MixedBlocks  &blocks;
-      MPI_Comm            communicator = MPI_COMM_SELF;
-      DistributedMatrix   matrix;
-      MixedPreconditioner preconditioner;
-      bool                is_worn = true, is_fresh = false;
-      double              iterations_of_best = 0.;
+      const Choice                    choose;
+      MPI_Comm                        communicator = MPI_COMM_SELF;
+      DistributedMatrix               matrix;
+      std::unique_ptr<Preconditioner> preconditioner;
+      bool                            is_worn = true, is_fresh = false;
+      double                          iterations_of_best = 0.;
     };
   } // namespace
 
   std::unique_ptr<LinearSolver::Backend>
   make_mixed_backend(const MixedBlocks &blocks)
   {
-    return std::make_unique<MixedBackend>(blocks);
+    return std::make_unique<KeptBackend>([&blocks](const SparseSystem &) {
+      return std::make_unique<MixedPreconditioner>(blocks);
+    });
+  }
+
+  std::unique_ptr<LinearSolver::Backend>
+  make_lattice_backend(const MixedBlocks &blocks)
+  {
+    return std::make_unique<KeptBackend>(
+      [&blocks](const SparseSystem &system) -> std::unique_ptr<Preconditioner> {
+        int n_ranks = 1;
+        MPI_Comm_size(system.communicator, &n_ranks);
+        if (n_ranks == 1)
+          if (auto lattice = find_lattice(blocks))
+            return std::make_unique<LatticeMultigrid>(std::move(*lattice));
+        return std::make_unique<MixedPreconditioner>(blocks);
+      });
   }
 } // namespace kedge
