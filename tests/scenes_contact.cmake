@@ -36,6 +36,14 @@ kedge_add_scene_test(scene.block_on_incline.sticks prm/block_on_incline.prm
   SET "Constants/mu = 0.6")
 kedge_add_scene_test(scene.block_on_incline.smooth prm/block_on_incline.prm
   SET "Constants/mu = 0")
+# rigid walls: waves, and sliding along a plane oblique to the grid
+kedge_add_scene_test(scene.bar_on_wall prm/bar_on_wall.prm)
+kedge_add_scene_test(scene.bar_on_wall.short_steps prm/bar_on_wall.prm SET "Constants/cfl = 0.5")
+kedge_add_scene_test(scene.block_on_slope prm/block_on_slope.prm)
+kedge_add_scene_test(scene.block_on_slope.sticks prm/block_on_slope.prm SET "Constants/mu = 0.6")
+kedge_add_scene_test(scene.block_on_slope.smooth prm/block_on_slope.prm SET "Constants/mu = 0")
+kedge_add_restart_test(scene.restart.wall prm/block_on_slope.prm KILLS 1
+  SET "Output/Checkpoint every steps = 5")
 # gravity that strikes makes the cylinder hop: within two per cent
 kedge_add_scene_test(scene.cylinder_rolling prm/cylinder_rolling.prm)
 kedge_add_scene_test(scene.cylinder_rolling.slides prm/cylinder_rolling.prm

@@ -1,13 +1,13 @@
-// What a contact says of itself in the books.
-#include <kedge/contact/contact_term.h>
+#include <kedge/contact/contact_books.h>
 
 #include <algorithm>
+#include <map>
 
 namespace kedge
 {
   template <int dim>
   void
-  ContactTerm<dim>::declare_books(Ledger &ledger)
+  ContactBooks<dim>::declare(Ledger &ledger, const std::string &pair)
   {
     using Section  = Ledger::Section;
     using Kind     = Ledger::Kind;
@@ -19,7 +19,7 @@ namespace kedge
     columns.released = ledger.declare(
       {"contact_energy_released", "J", Section::energy, Kind::total, Role::lost, "energy"});
 
-    std::string of_pair = "_" + parameters.name;
+    std::string of_pair = "_" + pair;
     std::replace(of_pair.begin(), of_pair.end(), ' ', '_');
     const auto of_step = [&](const std::string &column, const std::string &unit, const Kind kind) {
       return ledger.declare({"contact_" + column + of_pair, unit, Section::force, kind});
@@ -38,54 +38,48 @@ namespace kedge
 
   template <int dim>
   void
-  ContactTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  ContactBooks<dim>::book(Ledger                               &ledger,
+                          const std::vector<ContactPlace<dim>> &places,
+                          const double                          released,
+                          const double                          dt,
+                          const Lattice<dim>                   &lattice) const
   {
-    ledger.book(columns.released, released);
-    double area = 0., overlap = 0., friction = 0.;
-    // a pressure is resolved by cells: a single sample's is not
+    double area = 0., overlap = 0., friction = 0., force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
     std::map<LatticeIndex<dim>, std::pair<double, double>> load_and_area;
-    const auto &lattice  = surfaces.front()->surface.patch.grid().lattice();
-    double      force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
-    for (std::size_t k = 0; k < passes.size(); ++k)
-      for (const auto &sample : passes[k].samples())
-        {
-          const auto end = passes[k].outcome(sample);
-          friction += sample.area * end.response.dissipation;
-          overlap = std::max(overlap, -end.response.gap_end);
-          if (!(end.response.pressure > 0.))
-            continue;
-          area += sample.area;
-          auto &of_cell = load_and_area[lattice.cell_of(passes[k].place_at_balance(sample))];
-          of_cell.first += sample.area * end.response.pressure;
-          of_cell.second += sample.area;
-          // on the first body, where that one is: in the configuration of the balance
-          const bool                   first = k % 2 == 0;
-          const dealii::Tensor<1, dim> f = (first ? 1. : -1.) * sample.area * end.response.traction;
-          const dealii::Point<dim>     x =
-            first ? passes[k].place_at_balance(sample) : passes[k].partner_at_balance(sample);
-          double arm[3] = {0, 0, 0}, on[3] = {0, 0, 0};
-          for (int d = 0; d < dim; ++d)
-            {
-              arm[d] = x[d];
-              on[d]  = f[d];
-            }
-          for (int d = 0; d < 3; ++d)
-            {
-              force[d] += on[d];
-              moment[d] += arm[(d + 1) % 3] * on[(d + 2) % 3] - arm[(d + 2) % 3] * on[(d + 1) % 3];
-            }
-        }
+    for (const ContactPlace<dim> &place : places)
+      {
+        friction += place.friction;
+        overlap = std::max(overlap, place.overlap);
+        if (!(place.pressure > 0.))
+          continue;
+        area += place.area;
+        auto &of_cell = load_and_area[lattice.cell_of(place.at)];
+        of_cell.first += place.area * place.pressure;
+        of_cell.second += place.area;
+        double arm[3] = {0, 0, 0}, on[3] = {0, 0, 0};
+        for (int d = 0; d < dim; ++d)
+          {
+            arm[d] = place.at[d];
+            on[d]  = place.force[d];
+          }
+        for (int d = 0; d < 3; ++d)
+          {
+            force[d] += on[d];
+            moment[d] += arm[(d + 1) % 3] * on[(d + 2) % 3] - arm[(d + 2) % 3] * on[(d + 1) % 3];
+          }
+      }
     double pressure = 0., largest_area = 0.;
     for (const auto &[cell, sums] : load_and_area)
       largest_area = std::max(largest_area, sums.second);
     for (const auto &[cell, sums] : load_and_area)
       if (sums.second >= 0.5 * largest_area)
         pressure = std::max(pressure, sums.first / sums.second);
+    ledger.book(columns.released, released);
     ledger.book(columns.friction, friction);
     ledger.book(columns.area, area);
     ledger.book(columns.pressure, pressure);
     ledger.book(columns.overlap, overlap);
-    ledger.book(columns.duration, area > 0. ? trial.times.dt : 0.);
+    ledger.book(columns.duration, area > 0. ? dt : 0.);
     for (int d = 0; d < dim; ++d)
       ledger.book(columns.force[d], force[d]);
     for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
@@ -96,18 +90,13 @@ namespace kedge
 
   template <int dim>
   void
-  ContactTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &ledger) const
+  ContactBooks<dim>::book_state(Ledger &ledger, const double stored) const
   {
-    for (const auto &half : passes)
-      ledger.book(columns.energy, half.stored());
+    ledger.book(columns.energy, stored);
     for (const Ledger::Index extreme : {columns.pressure, columns.overlap})
       ledger.book(extreme, 0.); // of states without a step before them
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                                     \
-  template void ContactTerm<dim>::declare_books(Ledger &);                                         \
-  template void ContactTerm<dim>::book(const Trial<dim> &, const Residual<dim> &, Ledger &) const; \
-  template void ContactTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &) const;
-  KEDGE_INSTANTIATE(2)
-  KEDGE_INSTANTIATE(3)
+  template class ContactBooks<2>;
+  template class ContactBooks<3>;
 } // namespace kedge

@@ -101,6 +101,24 @@ namespace kedge
 
 
   template <int dim>
+  dealii::Tensor<2, dim>
+  stiffness_when_closed(const ContactLaw &law, const dealii::Tensor<1, dim> &normal)
+  {
+    dealii::Tensor<2, dim> result =
+      -law.alpha * law.normal_stiffness * outer_product(normal, normal);
+    if (law.friction > 0. || law.adhesion > 0.)
+      {
+        const double eps_t = law.alpha * law.tangent_stiffness;
+        result += eps_t * outer_product(normal, normal);
+        for (int d = 0; d < dim; ++d)
+          result[d][d] -= eps_t;
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
   dealii::Tensor<1, dim>
   turned(const dealii::Tensor<1, dim> &vector,
          const dealii::Tensor<1, dim> &from,
@@ -133,6 +151,10 @@ namespace kedge
                    const dealii::Tensor<1, 3> &,
                    const double,
                    const dealii::Tensor<1, 3> &);
+  template dealii::Tensor<2, 2>
+  stiffness_when_closed(const ContactLaw &, const dealii::Tensor<1, 2> &);
+  template dealii::Tensor<2, 3>
+  stiffness_when_closed(const ContactLaw &, const dealii::Tensor<1, 3> &);
   template dealii::Tensor<1, 2>
   turned(const dealii::Tensor<1, 2> &, const dealii::Tensor<1, 2> &, const dealii::Tensor<1, 2> &);
   template dealii::Tensor<1, 3>

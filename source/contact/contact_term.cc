@@ -5,28 +5,6 @@
 
 namespace kedge
 {
-  namespace
-  {
-    /** d traction / dD of a place that is closed and sticks. */
-    template <int dim>
-    dealii::Tensor<2, dim>
-    stiffness_when_closed(const ContactLaw &law, const dealii::Tensor<1, dim> &normal)
-    {
-      dealii::Tensor<2, dim> result =
-        -law.alpha * law.normal_stiffness * outer_product(normal, normal);
-      if (law.friction > 0. || law.adhesion > 0.)
-        {
-          const double eps_t = law.alpha * law.tangent_stiffness;
-          result += eps_t * outer_product(normal, normal);
-          for (int d = 0; d < dim; ++d)
-            result[d][d] -= eps_t;
-        }
-      return result;
-    }
-  } // namespace
-
-
-
   template <int dim>
   ContactTerm<dim>::ContactTerm(const ContactParameters               &parameters,
                                 const std::vector<ContactBodies<dim>> &bodies,
@@ -368,6 +346,57 @@ namespace kedge
         released -= half.stored_of(end_of_step[k]);
       }
     return {};
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::declare_books(Ledger &ledger)
+  {
+    books.declare(ledger, parameters.name);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  {
+    std::vector<ContactPlace<dim>> places;
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      for (const auto &sample : passes[k].samples())
+        {
+          // on the first body, where that one is
+          const bool        first = k % 2 == 0;
+          const auto        end   = passes[k].outcome(sample);
+          ContactPlace<dim> place;
+          place.at =
+            first ? passes[k].place_at_balance(sample) : passes[k].partner_at_balance(sample);
+          place.force    = (first ? 1. : -1.) * sample.area * end.response.traction;
+          place.area     = sample.area;
+          place.pressure = end.response.pressure;
+          place.overlap  = -end.response.gap_end;
+          place.friction = sample.area * end.response.dissipation;
+          places.push_back(place);
+        }
+    books.book(ledger,
+               places,
+               released,
+               trial.times.dt,
+               surfaces.front()->surface.patch.grid().lattice());
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &ledger) const
+  {
+    double stored = 0.;
+    for (const auto &half : passes)
+      stored += half.stored();
+    books.book_state(ledger, stored);
   }
 
 

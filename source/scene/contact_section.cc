@@ -1,6 +1,7 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/base/nearest_name.h>
 #include <kedge/scene/contact_section.h>
+#include <kedge/scene/values.h>
 
 #include <algorithm>
 
@@ -98,6 +99,46 @@ namespace kedge
             contact.method = ContactMethod::surface_points;
         }
     }
+
+    /** A rigid plane, if the section has one. */
+    template <int dim>
+    void
+    read_wall(const SectionReader &section, ContactParameters &contact)
+    {
+      const bool has_side   = !section.is_empty("Wall"),
+                 has_normal = !section.is_empty("Wall normal");
+      contact.has_wall      = has_side || has_normal;
+      if (!contact.has_wall)
+        {
+          if (section.is_empty("Second"))
+            throw section.error("Second", "Name the bodies of the second group, or give a Wall.");
+          if (!section.is_empty("Wall point"))
+            throw section.error("Wall point", "There is no Wall, and no Wall normal.");
+          return;
+        }
+      if (!section.is_empty("Second"))
+        throw section.error("Second", "A Wall stands in place of the second group. Leave one out.");
+      if (has_side && has_normal)
+        throw section.error("Wall normal", "Wall has a normal already. Leave one of the two out.");
+      if (is_nodal(contact.method) || section.text("Method") == "none")
+        throw section.error("Method", "A wall is touched by surface points. Leave Method out.");
+      contact.method = ContactMethod::surface_points;
+      if (!section.is_empty("Wall point"))
+        contact.wall_point = section.numbers("Wall point");
+      if (has_side)
+        {
+          contact.wall_side = parse_side<dim>(section.text("Wall"));
+          return;
+        }
+      contact.wall_normal = section.numbers("Wall normal");
+      double square       = 0.;
+      for (const double component : contact.wall_normal)
+        square += component * component;
+      if (!(square > 0.))
+        throw section.error("Wall normal", "It has no direction.");
+      if (contact.wall_point.empty())
+        throw section.error("Wall point", "A wall with a normal of its own needs a point.");
+    }
   } // namespace
 
 
@@ -116,7 +157,21 @@ namespace kedge
       "Bodies between which no section stands move as one where they meet on the grid.",
       SectionKind::named,
       {{"First", std::nullopt, group, "The bodies of the first group."},
-       {"Second", std::nullopt, group, "The bodies of the second group."},
+       {"Second", "", group.or_empty(), "The bodies of the second group."},
+       {"Wall",
+        "",
+        allow.side().or_empty(),
+        "In place of Second: a rigid plane on this side of the grid, which the bodies of First "
+        "may touch, slide along and leave. Node conditions hold as well as they push."},
+       {"Wall point",
+        "",
+        allow.vector().or_empty(),
+        "A point of the wall [m]. Empty: one of the side."},
+       {"Wall normal",
+        "",
+        allow.vector().or_empty(),
+        "In place of Wall: the direction from the wall towards the bodies [-]; needs Wall "
+        "point."},
        {"Method",
         "",
         allow
@@ -156,6 +211,7 @@ namespace kedge
 
 
 
+  template <int dim>
   std::vector<ContactParameters>
   read_contacts(const ParameterReader &reader)
   {
@@ -164,10 +220,12 @@ namespace kedge
       {
         const SectionReader section(reader, {"Contact", name});
         ContactParameters   contact;
-        contact.name   = name;
-        contact.first  = read_group(reader, section, "First");
-        contact.second = read_group(reader, section, "Second");
+        contact.name  = name;
+        contact.first = read_group(reader, section, "First");
+        if (!section.is_empty("Second"))
+          contact.second = read_group(reader, section, "Second");
         read_law(section, contact);
+        read_wall<dim>(section, contact);
         for (const std::string &body : contact.second)
           if (holds(contact.first, body))
             throw section.error("Second",
@@ -182,4 +240,8 @@ namespace kedge
   declare_contact(const ValuePatterns<2> &);
   template SectionDeclaration
   declare_contact(const ValuePatterns<3> &);
+  template std::vector<ContactParameters>
+  read_contacts<2>(const ParameterReader &);
+  template std::vector<ContactParameters>
+  read_contacts<3>(const ParameterReader &);
 } // namespace kedge

@@ -434,7 +434,7 @@ namespace kedge
       });
     });
     errors.attempt([&]() {
-      scene.contacts = read_contacts(reader);
+      scene.contacts = read_contacts<dim>(reader);
     });
     errors.attempt([&]() {
       scene.body_conditions = read_body_conditions<dim>(reader);

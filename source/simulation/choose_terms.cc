@@ -3,6 +3,7 @@
 #include <kedge/contact/contact_term.h>
 #include <kedge/contact/contact_velocity_term.h>
 #include <kedge/contact/nodal_law_term.h>
+#include <kedge/contact/wall_term.h>
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
 #include <kedge/solid/body_condition_term.h>
@@ -188,6 +189,38 @@ namespace kedge
       return {&first, &second, stiffness, stiffness * (1. - poisson) / (1. - 0.5 * poisson)};
     }
 
+    /** The same against a wall, which gives nothing: the harmonic mean is twice the body's. */
+    template <int dim>
+    WallBody<dim>
+    wall_body_of(const BodySurface<dim>  &surface,
+                 const Scene<dim>        &scene,
+                 const Bodies            &bodies,
+                 const ContactParameters &contact,
+                 const double             cell_size)
+    {
+      const double poisson = scene.materials[scene.bodies[surface.body].material].poisson_ratio;
+      const double stiffness =
+        2. * contact.penalty_factor * p_wave_modulus(bodies.materials[surface.body]) / cell_size;
+      return {&surface, stiffness, stiffness * (1. - poisson) / (1. - 0.5 * poisson)};
+    }
+
+    template <int dim>
+    WallPlane<dim>
+    plane_of(const ContactParameters &contact, const Lattice<dim> &lattice)
+    {
+      WallPlane<dim> plane;
+      for (int d = 0; d < dim; ++d)
+        plane.point[d] =
+          contact.wall_side % 2 == 1 ? lattice.upper(d) : lattice.origin[d]; // a corner of the side
+      plane.normal[contact.wall_side / 2] = contact.wall_side % 2 == 1 ? -1. : 1.;
+      for (std::size_t d = 0; d < contact.wall_point.size(); ++d)
+        plane.point[d] = contact.wall_point[d];
+      for (std::size_t d = 0; d < contact.wall_normal.size(); ++d)
+        plane.normal[d] = contact.wall_normal[d];
+      plane.normal /= plane.normal.norm();
+      return plane;
+    }
+
     /** Parts of a cell's diagonal where the non-linear penalty bends, and its final stiffness over
      * that at the start: those of the thesis's section 5.5.1.2. */
     constexpr double first_bend = -0.01, last_bend = -0.03, stiffening = 100.;
@@ -262,6 +295,18 @@ namespace kedge
             throw UserError("Contact/" + contact.name +
                             ": Friction acts on the effective pressure, which contact does not "
                             "know yet: with a Pore fluid it must be frictionless.");
+          if (contact.has_wall)
+            {
+              std::vector<WallBody<dim>> touching;
+              for (const std::string &first : contact.first)
+                touching.push_back(wall_body_of(*surfaces.at(first), scene, bodies, contact, h));
+              add_term(std::make_unique<WallTerm<dim>>(contact,
+                                                       plane_of(contact, points.grid().lattice()),
+                                                       touching,
+                                                       scheme,
+                                                       h));
+              continue;
+            }
           std::vector<ContactBodies<dim>> pairs;
           for (const std::string &first : contact.first)
             for (const std::string &second : contact.second)

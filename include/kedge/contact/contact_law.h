@@ -75,6 +75,11 @@ namespace kedge
                    const double                  multiplier,
                    const dealii::Tensor<1, dim> &D);
 
+  /** d traction / dD of a place that is closed and sticks. */
+  template <int dim>
+  dealii::Tensor<2, dim>
+  stiffness_when_closed(const ContactLaw &law, const dealii::Tensor<1, dim> &normal);
+
   /** A vector across @p from turned with it to be across @p to; both unit vectors. */
   template <int dim>
   dealii::Tensor<1, dim>

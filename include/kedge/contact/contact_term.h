@@ -1,6 +1,7 @@
 #ifndef kedge_contact_contact_term_h
 #define kedge_contact_contact_term_h
 
+#include <kedge/contact/contact_books.h>
 #include <kedge/contact/coupling_sum.h>
 #include <kedge/contact/parameters.h>
 #include <kedge/contact/surface_samples.h>
@@ -107,11 +108,6 @@ namespace kedge
     }
 
   private:
-    struct Columns
-    {
-      Ledger::Index energy, friction, released;
-      Ledger::Index force[dim], moment[3], area, pressure, overlap, duration;
-    };
     using Forces = std::vector<dealii::Tensor<1, dim>>;
     using Memory = std::map<unsigned int, typename SurfaceSamples<dim>::Memory>;
 
@@ -140,7 +136,7 @@ namespace kedge
     double                           released = 0.; ///< energy lost track of [J]
     unsigned int                     n_passes = 0, n_updates = 0;
     unsigned int                     n_tangents = 0, n_follows = 0;
-    Columns                          columns{};
+    ContactBooks<dim>                books;
   };
 } // namespace kedge
 

@@ -38,6 +38,12 @@ namespace kedge
     double                   adhesion       = 0.; ///< [Pa]
     double                   penalty_factor = 2.; ///< beta of eps = beta M / h, or of (5.105) [-]
     double                   spacing        = 0.; ///< of the surfaces' points [m]; 0: h/5
+
+    /** A rigid plane in place of the second group: parallel to a side of the grid, or with a
+     * normal. */
+    bool                has_wall  = false;
+    unsigned int        wall_side = 0;           ///< 2*direction + (0: low, 1: high)
+    std::vector<double> wall_point, wall_normal; ///< empty: those of the side
   };
 } // namespace kedge
 

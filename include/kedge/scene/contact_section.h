@@ -12,7 +12,9 @@ namespace kedge
   SectionDeclaration
   declare_contact(const ValuePatterns<dim> &allow);
 
-  /** @throws UserError for names that no body has, and bodies that stand on both sides. */
+  /** @throws UserError for names that no body has, and bodies that stand on both sides, and walls
+   * that are not one. */
+  template <int dim>
   std::vector<ContactParameters>
   read_contacts(const ParameterReader &reader);
 } // namespace kedge

@@ -1,0 +1,158 @@
+#ifndef kedge_contact_wall_term_h
+#define kedge_contact_wall_term_h
+
+#include <kedge/contact/contact_books.h>
+#include <kedge/contact/contact_law.h>
+#include <kedge/contact/parameters.h>
+#include <kedge/equations/term.h>
+#include <kedge/surfaces/body_surface.h>
+
+namespace kedge
+{
+  /** A plane that bodies do not pass. */
+  template <int dim>
+  struct WallPlane
+  {
+    dealii::Point<dim>     point;
+    dealii::Tensor<1, dim> normal; ///< unit vector towards the bodies
+
+    double
+    gap(const dealii::Point<dim> &x) const
+    {
+      return normal * (x - point);
+    }
+  };
+
+  /** A body that may touch a wall, and how stiff the contact is. */
+  template <int dim>
+  struct WallBody
+  {
+    const BodySurface<dim> *surface;
+    double                  normal_stiffness, tangent_stiffness; ///< [Pa/m]
+  };
+
+  /**
+   * Contact of bodies with a rigid plane: the middles of a surface's facets that look towards it
+   * are samples, and the law is contact_response() with the displacement of the sample alone,
+   *   R -= sum of A B^T (p n + t),   D = B u.
+   * The gap n.(x - x_wall) is linear in D, so that the carried gap of conserving steps is the
+   * measured one. Without inertia the pressures are found by Uzawa's iteration, as in ContactTerm.
+   */
+  template <int dim>
+  class WallTerm : public Term<dim>
+  {
+  public:
+    /** In parts of a cell: how near samples matter, how deep they may come, how small the gaps of
+     * bodies at rest must be, where bodies that do not press yet are held in the tangent. */
+    static constexpr double reach = 1., largest_overlap = 0.5, smallest_gap = 1e-3,
+                            nearly_closed = 0.05;
+
+    /** Facets look towards the wall whose normals have at least this part against it. */
+    static constexpr double towards = 0.05;
+
+    static constexpr unsigned int most_updates = 40;
+
+    WallTerm(const ContactParameters          &parameters,
+             const WallPlane<dim>             &plane,
+             const std::vector<WallBody<dim>> &bodies,
+             const Scheme                     &scheme,
+             const double                      cell_size);
+
+    std::string
+    name() const override
+    {
+      return "contact '" + parameters.name + "'";
+    }
+
+    void
+    declare_books(Ledger &ledger) override;
+
+    /** @throws UserError for bodies that lie behind the wall */
+    void
+    attach(std::vector<GeneratedPoint<dim>> &points) override;
+
+    void
+    start(Trial<dim> &trial) override;
+
+    Answer
+    add_residual(const Trial<dim> &trial, Residual<dim> &residual) override;
+
+    void
+    add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent) override;
+
+    bool
+    refresh(const Trial<dim> &trial) override;
+
+    Answer
+    finish(const Trial<dim> &trial) override;
+
+    void
+    book(const Trial<dim> &trial, const Residual<dim> &residual, Ledger &ledger) const override;
+
+    void
+    commit(const Trial<dim> &trial, MaterialPoints<dim> &cloud) override;
+
+    void
+    book_state(const MaterialPoints<dim> &cloud, Ledger &ledger) const override;
+
+    void
+    save(SavedState &state) const override;
+
+    void
+    restore(const SavedState &state) override;
+
+  private:
+    /** What a facet's middle carries from step to step while it is closed. */
+    struct Closed
+    {
+      double                 gap = 0., multiplier = 0.; ///< [m], [Pa]
+      dealii::Tensor<1, dim> slip;                      ///< its elastic part [m]
+    };
+    using Memory = std::map<unsigned int, Closed>; ///< by facet
+
+    struct Sample
+    {
+      unsigned int       facet;
+      dealii::Point<dim> place; ///< at the start of the step
+      Closed             start;
+      double             area; ///< at the start of the run
+    };
+
+    struct Side
+    {
+      const BodySurface<dim>             *surface;
+      ContactLaw                          law;
+      std::vector<Sample>                 samples;
+      std::vector<dealii::Tensor<1, dim>> displacements; ///< of the vertices
+      Memory                              memory, end_of_step;
+    };
+
+    void
+    find(Side &side) const;
+    void
+    move(const Trial<dim> &trial);
+    dealii::Tensor<1, dim>
+    displacement(const Side &side, const Sample &sample) const;
+    ContactResponse<dim>
+    response(const Side &side, const Sample &sample) const;
+    static double
+    stored(const ContactLaw &law, const Closed &closed);
+    static double
+    stored(const Side &side, const Memory &memory);
+    bool
+    presses() const;
+    dealii::Point<dim>
+    middle(const Side &side, const unsigned int facet) const;
+
+    const ContactParameters parameters;
+    const WallPlane<dim>    plane;
+    const Scheme            scheme;
+    const double            cell_size, alpha;
+    std::vector<Side>       sides;          ///< one per body
+    double                  released  = 0.; ///< energy of samples that no longer look here [J]
+    unsigned int            n_updates = 0;
+    ContactBooks<dim>       books;
+  };
+} // namespace kedge
+
+#endif

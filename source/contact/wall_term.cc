@@ -1,0 +1,407 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/contact/coupling_sum.h>
+#include <kedge/contact/wall_term.h>
+
+#include <sstream>
+
+namespace kedge
+{
+  template <int dim>
+  WallTerm<dim>::WallTerm(const ContactParameters          &parameters,
+                          const WallPlane<dim>             &plane,
+                          const std::vector<WallBody<dim>> &bodies,
+                          const Scheme                     &scheme,
+                          const double                      cell_size)
+    : parameters(parameters)
+    , plane(plane)
+    , scheme(scheme)
+    , cell_size(cell_size)
+    , alpha(scheme.dynamic ? scheme.alpha_f : 1.)
+  {
+    for (const WallBody<dim> &body : bodies)
+      {
+        Side side;
+        side.surface               = body.surface;
+        side.law.normal_stiffness  = body.normal_stiffness;
+        side.law.tangent_stiffness = body.tangent_stiffness;
+        side.law.friction          = parameters.friction;
+        side.law.adhesion          = parameters.adhesion;
+        side.law.alpha             = alpha;
+        side.law.conserving        = scheme.dynamic && !scheme.carries_acceleration && alpha == 0.5;
+        sides.push_back(side);
+      }
+  }
+
+
+
+  template <int dim>
+  dealii::Point<dim>
+  WallTerm<dim>::middle(const Side &side, const unsigned int facet) const
+  {
+    dealii::Point<dim> x;
+    for (const auto &corner : side.surface->mesh().corners(facet))
+      x += corner / dim;
+    return x;
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
+  {
+    for (const Side &side : sides)
+      for (unsigned int f = 0; f < side.surface->n_facets(); ++f)
+        {
+          const double gap = plane.gap(middle(side, f));
+          if (gap >= -largest_overlap * cell_size)
+            continue;
+          std::ostringstream message;
+          message << "Contact '" << parameters.name << "': body '" << side.surface->body_name
+                  << "' reaches " << -gap << " m behind the wall at (" << middle(side, f)
+                  << "), which is more than half a cell. Move it (Bodies/"
+                  << side.surface->body_name << "/Geometry) or the wall (Contact/"
+                  << parameters.name << "/Wall).";
+          throw UserError(message.str());
+        }
+  }
+
+
+
+  /** The samples of a step: facets near the wall that look towards it. */
+  template <int dim>
+  void
+  WallTerm<dim>::find(Side &side) const
+  {
+    side.samples.clear();
+    for (unsigned int f = 0; f < side.surface->n_facets(); ++f)
+      {
+        const dealii::Point<dim> x   = middle(side, f);
+        const double             gap = plane.gap(x);
+        if (gap > reach * cell_size)
+          continue;
+        const auto outward = area_vector<dim>(side.surface->mesh().corners(f));
+        if (plane.normal * outward > -towards * outward.norm())
+          continue;
+        Sample     sample{f, x, {}, side.surface->reference_area(f)};
+        const auto known = side.memory.find(f);
+        if (known != side.memory.end())
+          sample.start = known->second;
+        // one that is first seen inside begins as if it touched
+        if (!side.law.conserving)
+          sample.start.gap = gap;
+        else if (known == side.memory.end())
+          sample.start.gap = std::max(gap, 0.);
+        side.samples.push_back(sample);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::start(Trial<dim> &)
+  {
+    n_updates = 0;
+    for (Side &side : sides)
+      find(side);
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::move(const Trial<dim> &trial)
+  {
+    for (Side &side : sides)
+      if (!side.samples.empty())
+        side.surface->interpolate(trial.displacement(side.surface->field), side.displacements);
+  }
+
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  WallTerm<dim>::displacement(const Side &side, const Sample &sample) const
+  {
+    dealii::Tensor<1, dim> D;
+    for (const unsigned int v : side.surface->mesh().facets[sample.facet])
+      D += side.displacements[v] / dim;
+    return D;
+  }
+
+
+
+  template <int dim>
+  ContactResponse<dim>
+  WallTerm<dim>::response(const Side &side, const Sample &sample) const
+  {
+    return contact_response(side.law,
+                            plane.normal,
+                            plane.normal,
+                            sample.start.gap,
+                            sample.start.slip,
+                            sample.start.multiplier,
+                            displacement(side, sample));
+  }
+
+
+
+  template <int dim>
+  bool
+  WallTerm<dim>::presses() const
+  {
+    for (const Side &side : sides)
+      for (const Sample &sample : side.samples)
+        if (response(side, sample).pressure > 0.)
+          return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  Answer
+  WallTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
+  {
+    move(trial);
+    for (const Side &side : sides)
+      for (const Sample &sample : side.samples)
+        {
+          const dealii::Tensor<1, dim> force = sample.area / dim * response(side, sample).traction;
+          if (force == dealii::Tensor<1, dim>())
+            continue;
+          auto &sums = residual.partial(side.surface->field);
+          for (const unsigned int v : side.surface->mesh().facets[sample.facet])
+            side.surface->add_force(v, -force, sums);
+        }
+    return {};
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
+  {
+    move(trial);
+    CouplingSum<dim> sum;
+    const bool       to_be_held = !scheme.dynamic && !presses();
+    for (const Side &side : sides)
+      for (const Sample &sample : side.samples)
+        {
+          const ContactResponse<dim>   here = response(side, sample);
+          const dealii::Tensor<2, dim> slope =
+            to_be_held && here.gap_end < nearly_closed * cell_size
+              ? stiffness_when_closed(side.law, plane.normal)
+              : here.slope;
+          if (slope == dealii::Tensor<2, dim>())
+            continue;
+          typename CouplingSum<dim>::Coefficients coefficients;
+          for (const unsigned int v : side.surface->mesh().facets[sample.facet])
+            side.surface->for_nodes(v, [&](const unsigned int node, const double N) {
+              coefficients[{side.surface->field, node}] += N / dim;
+            });
+          sum.add(coefficients, -sample.area * slope);
+        }
+    sum.add_to(tangent);
+  }
+
+
+
+  /** Uzawa's step at rest; false if all closed samples have small gaps. */
+  template <int dim>
+  bool
+  WallTerm<dim>::refresh(const Trial<dim> &trial)
+  {
+    if (scheme.dynamic || n_updates == most_updates)
+      return false;
+    move(trial);
+    std::vector<std::vector<double>> pressures;
+    double                           largest = 0.; // [m]
+    for (const Side &side : sides)
+      {
+        pressures.emplace_back();
+        for (const Sample &sample : side.samples)
+          {
+            pressures.back().push_back(response(side, sample).pressure);
+            largest = std::max(largest,
+                               std::abs(pressures.back().back() - sample.start.multiplier) /
+                                 side.law.normal_stiffness);
+          }
+      }
+    if (largest <= smallest_gap * cell_size)
+      return false;
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      for (std::size_t n = 0; n < sides[k].samples.size(); ++n)
+        sides[k].samples[n].start.multiplier = pressures[k][n];
+    ++n_updates;
+    return true;
+  }
+
+
+
+  template <int dim>
+  Answer
+  WallTerm<dim>::finish(const Trial<dim> &trial)
+  {
+    move(trial);
+    released = 0.;
+    for (Side &side : sides)
+      {
+        side.end_of_step.clear();
+        double taken_up = 0., left = 0.;
+        for (const Sample &sample : side.samples)
+          {
+            const ContactResponse<dim> end = response(side, sample);
+            const double true_gap          = plane.gap(sample.place + displacement(side, sample));
+            const double overlap           = -std::min(true_gap, end.gap_end);
+            if (overlap > largest_overlap * cell_size)
+              {
+                std::ostringstream cause;
+                cause << name() << ": body '" << side.surface->body_name
+                      << "' would come behind the wall by " << overlap << " m at (" << sample.place
+                      << "), more than half a cell; stiffen the contact (Contact/"
+                      << parameters.name << "/Penalty factor) or refine the grid";
+                return Answer::failure(cause.str());
+              }
+            const Closed after{end.gap_end, sample.start.multiplier, end.slip_end};
+            taken_up += sample.area * stored(side.law, sample.start);
+            left += sample.area * stored(side.law, after);
+            if (side.law.conserving ? end.gap_end < 0. || true_gap < 0. : end.pressure > 0.)
+              side.end_of_step[sample.facet] = after;
+          }
+        // committed less taken up by samples; and at the end what samples had less what is kept
+        released += stored(side, side.memory) - taken_up + left - stored(side, side.end_of_step);
+      }
+    return {};
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::declare_books(Ledger &ledger)
+  {
+    books.declare(ledger, parameters.name);
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  {
+    std::vector<ContactPlace<dim>> places;
+    for (const Side &side : sides)
+      for (const Sample &sample : side.samples)
+        {
+          const ContactResponse<dim> end = response(side, sample);
+          ContactPlace<dim>          place;
+          place.at       = sample.place + alpha * displacement(side, sample);
+          place.force    = sample.area * end.traction;
+          place.area     = sample.area;
+          place.pressure = end.pressure;
+          place.overlap  = -end.gap_end;
+          place.friction = sample.area * end.dissipation;
+          places.push_back(place);
+        }
+    books.book(ledger,
+               places,
+               released,
+               trial.times.dt,
+               sides.front().surface->patch.grid().lattice());
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &ledger) const
+  {
+    double sum = 0.;
+    for (const Side &side : sides)
+      sum += stored(side, side.memory);
+    books.book_state(ledger, sum);
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::commit(const Trial<dim> &, MaterialPoints<dim> &)
+  {
+    for (Side &side : sides)
+      side.memory = std::move(side.end_of_step);
+  }
+
+
+
+  template <int dim>
+  double
+  WallTerm<dim>::stored(const ContactLaw &law, const Closed &closed)
+  {
+    return stored_in_gap(law, closed.gap, closed.multiplier) +
+           0.5 * law.tangent_stiffness * closed.slip.norm_square();
+  }
+
+
+
+  template <int dim>
+  double
+  WallTerm<dim>::stored(const Side &side, const Memory &memory)
+  {
+    double sum = 0.;
+    for (const auto &[facet, closed] : memory)
+      sum += side.surface->reference_area(facet) * stored(side.law, closed);
+    return sum;
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::save(SavedState &state) const
+  {
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      {
+        auto &values = state[name() + " " + std::to_string(k)];
+        for (const auto &[facet, closed] : sides[k].memory)
+          {
+            values.insert(values.end(), {double(facet), closed.gap, closed.multiplier});
+            values.insert(values.end(), closed.slip.begin_raw(), closed.slip.end_raw());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::restore(const SavedState &state)
+  {
+    constexpr std::size_t width = 3 + dim;
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      {
+        Side       &side   = sides[k];
+        const auto &values = state.at(name() + " " + std::to_string(k));
+        AssertThrow(values.size() % width == 0, dealii::ExcInternalError());
+        side.memory.clear();
+        for (auto next = values.begin(); next != values.end(); next += width)
+          {
+            Closed closed{next[1], next[2], {}};
+            for (int d = 0; d < dim; ++d)
+              closed.slip[d] = next[3 + d];
+            if (scheme.dynamic) // multipliers of a state of rest become gaps that press as hard
+              {
+                closed.gap -= closed.multiplier / side.law.normal_stiffness;
+                closed.multiplier = 0.;
+              }
+            side.memory[static_cast<unsigned int>(next[0])] = closed;
+          }
+      }
+  }
+
+  template class WallTerm<2>;
+  template class WallTerm<3>;
+} // namespace kedge
