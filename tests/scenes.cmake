@@ -65,6 +65,23 @@ endforeach()
 kedge_add_scene_test(scene.patch_traction.3d tests/scenes/patch_traction_3d.prm)
 kedge_add_scene_test(scene.patch_traction.3d.cut tests/scenes/patch_traction_3d.prm
   SET "Constants/shift = 0.81")
+# oblique and curved sides: facets; a square that turns under a pressure
+kedge_add_scene_test(scene.patch_oblique prm/patch_oblique.prm)
+kedge_add_scene_test(scene.patch_oblique.elsewhere prm/patch_oblique.prm
+  SET "Constants/shift = 0.5" "Constants/angle = 0.7")
+kedge_add_scene_test(scene.patch_oblique.triangle prm/patch_oblique.prm
+  SET "Bodies/block/Geometry = polygon(-0.1, 0.1; 1.03, 0.17; 0.31, 1.1)"
+      "Constants/area = 0.55065")
+kedge_add_scene_test(scene.lame_cylinder prm/lame_cylinder.prm)
+kedge_add_scene_test(scene.lame_cylinder.finer prm/lame_cylinder.prm SET "Constants/n = 32")
+kedge_add_scene_test(scene.lame_sphere prm/lame_sphere.prm)
+kedge_add_scene_test(scene.lame_cylinder_limit prm/lame_cylinder_limit.prm)
+kedge_add_scene_test(scene.turning_under_pressure tests/scenes/turning_under_pressure.prm)
+kedge_add_scene_test(refusal.facets_on_ranks prm/patch_oblique.prm RANKS 2 EXPECT_EXIT 1
+  EXPECT_STDERR "oblique or curved.* one process" LABELS refusal)
+kedge_add_scene_test(refusal.where_holds_nothing prm/patch_oblique.prm
+  SET "Tractions/sides/Where = nx > 2" EXPECT_EXIT 1
+  EXPECT_STDERR "finds no exposed face" LABELS refusal)
 kedge_add_scene_test(scene.dead_load_tension prm/dead_load_tension.prm COMPARE_RANKS 1e-7)
 # what moves a body goes with it: uniform stress under platens through 25 cells, at any place
 # (on two ranks by the scenes' own checks: reactions of 0 are round-off, which cannot be compared)

@@ -58,6 +58,26 @@ namespace kedge
 
 
   template <int dim>
+  bool
+  lies_off_the_surface(const PointOrigin<dim> &point,
+                       const unsigned int      side,
+                       const Geometry<dim>    &geometry)
+  {
+    const unsigned int direction = side / 2;
+    const double       half = point.half_lengths[direction], length = 4. * half;
+    dealii::Point<dim> start = point.location;
+    if (side % 2 == 0)
+      start[direction] -= length;
+    const auto parts = geometry.inside(start, direction, length);
+    if (parts.empty())
+      return true;
+    const double end = side % 2 == 0 ? length - parts.back().first : parts.front().second;
+    return std::abs(end - half) > 1e-6 * half;
+  }
+
+
+
+  template <int dim>
   void
   check_node_conditions(const std::vector<NodeConditionParameters<dim>> &conditions,
                         const std::map<std::string, double>             &constants,
@@ -128,6 +148,10 @@ namespace kedge
                  const dealii::Point<2> &,
                  const dealii::Point<2> &,
                  const dealii::Tensor<1, 2> &);
+  template bool
+  lies_off_the_surface(const PointOrigin<2> &, const unsigned int, const Geometry<2> &);
+  template bool
+  lies_off_the_surface(const PointOrigin<3> &, const unsigned int, const Geometry<3> &);
   template void
   check_node_conditions(const std::vector<NodeConditionParameters<2>> &,
                         const std::map<std::string, double> &,

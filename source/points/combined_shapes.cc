@@ -186,8 +186,22 @@ namespace kedge
 
 
 
+    /** Whether all vertices of a surface lie inside a shape, or all outside. */
     template <int dim>
-    class Difference : public Geometry<dim>
+    bool
+    lies(const SurfaceMesh<dim> &surface, const bool inside, const Geometry<dim> &shape)
+    {
+      return std::all_of(surface.vertices.begin(), surface.vertices.end(), [&](const auto &x) {
+        return inside ? shape.level(x) < -1e-9 : shape.level(x) > 1e-9;
+      });
+    }
+
+
+
+    template <int dim>
+    class Difference
+      : public Geometry<dim>
+      , public Outlined<dim>
     {
     public:
       Difference(const Shape<dim> &a, const Shape<dim> &b)
@@ -240,6 +254,19 @@ namespace kedge
         auto result = VolumeMoments<dim>::of_box(half);
         result.add(*hole, -1);
         return result;
+      }
+
+      /** Of a shape with a hole within it. */
+      std::optional<SurfaceMesh<dim>>
+      outline(const double spacing) const override
+      {
+        auto outer = kedge::outline(*a, spacing), hole = kedge::outline(*b, spacing);
+        if (!outer || !hole || !lies(*hole, true, *a) || !lies(*outer, false, *b))
+          return std::nullopt;
+        for (auto &facet : hole->facets)
+          std::swap(facet[0], facet[1]);
+        outer->append(*hole);
+        return outer;
       }
 
     private:

@@ -9,7 +9,7 @@ namespace kedge
     /** What differs from a whole or an empty sub-cell by less than this part is one. */
     constexpr double rounding_tolerance = 1e-9;
 
-    /** Smaller parts of a sub-cell join a neighbour. */
+    /** Smaller parts of a sub-cell join a neighbour in their cell, boxes one in any cell. */
     constexpr double smallest_part = 0.1;
 
     /** Integer box of sub-cells [low, high) that may hold points of a body. */
@@ -31,6 +31,16 @@ namespace kedge
             x[d] = lattice.origin[d] + (cell + (within + 0.5) / per_cell[d]) * lattice.h[d];
           }
         return x;
+      }
+
+      /** The cell of the grid that holds a sub-cell. */
+      LatticeIndex<dim>
+      cell(const LatticeIndex<dim> &sub) const
+      {
+        LatticeIndex<dim> result;
+        for (int d = 0; d < dim; ++d)
+          result[d] = sub[d] / per_cell[d];
+        return result;
       }
 
       dealii::Tensor<1, dim>
@@ -127,12 +137,34 @@ namespace kedge
       return sub_cells;
     }
 
+    /** Half edges of a box with the radii of gyration that a piece has about its centre. */
+    template <int dim>
+    dealii::Tensor<1, dim>
+    box_of(const VolumeMoments<dim> &moments)
+    {
+      const VolumeMoments<dim> central = moments.about(moments.centre());
+      dealii::Tensor<1, dim>   half;
+      for (int d = 0; d < dim; ++d)
+        half[d] = std::sqrt(3. * central.second[d][d] / central.volume);
+      return half;
+    }
+
+    /** Whether a piece is a box along the axes: it fills the one with its radii. */
+    template <int dim>
+    bool
+    is_box(const VolumeMoments<dim> &moments)
+    {
+      const double volume = VolumeMoments<dim>::of_box(box_of(moments)).volume;
+      return std::abs(volume - moments.volume) < 1e-6 * moments.volume;
+    }
+
     /** What of a body lies in a sub-cell: a material point, or a part of one. */
     template <int dim>
     struct Piece
     {
       LatticeIndex<dim>  sub;
       bool               whole;       ///< it fills its sub-cell and nothing joined it
+      bool               is_box;      ///< along the axes, before anything joined it
       double             part;        ///< of the sub-cell's volume
       VolumeMoments<dim> moments;     ///< about the sub-cell's centre
       int                joined = -1; ///< the piece it joined
@@ -159,7 +191,7 @@ namespace kedge
       if (filling == Filling::empty)
         return std::nullopt;
       const auto whole = VolumeMoments<dim>::of_box(half);
-      Piece<dim> piece{sub, true, 1., whole};
+      Piece<dim> piece{sub, true, true, 1., whole};
       if (filling == Filling::full)
         return piece;
       const VolumeMoments<dim> moments = clipped_moments(geometry, box);
@@ -167,8 +199,9 @@ namespace kedge
       if (piece.part < rounding_tolerance)
         return std::nullopt;
       if (piece.part > 1. - rounding_tolerance)
-        return Piece<dim>{sub, true, 1., whole};
+        return Piece<dim>{sub, true, true, 1., whole};
       piece.whole   = false;
+      piece.is_box  = is_box(moments);
       piece.moments = moments;
       return piece;
     }
@@ -185,7 +218,7 @@ namespace kedge
         if (body.clip)
           piece = clipped_piece<dim>(*body.geometry, sub_cells, sub);
         else if (body.geometry->contains(sub_cells.centre(sub)))
-          piece = Piece<dim>{sub, true, 1., whole};
+          piece = Piece<dim>{sub, true, true, 1., whole};
         if (!piece)
           return;
         pieces.of_key[sub_cells.key(sub)] = static_cast<int>(pieces.list.size());
@@ -196,7 +229,9 @@ namespace kedge
 
     /**
      * Among the neighbours of a small piece the one that it joins: with a common
-     * face if there is any, then the largest. -1 if all are small.
+     * face if there is any, then the largest. -1 if all are small. A neighbour in another cell
+     * comes into question only if both are boxes, which make a larger box: the functions of that
+     * cell are not those of any other part.
      */
     template <int dim>
     int
@@ -223,6 +258,9 @@ namespace kedge
             }
           const int other = known ? pieces.of_key[sub_cells.key(sub)] : -1;
           if (steps == 0 || other < 0 || pieces.list[other].part < smallest_part)
+            continue;
+          const bool same_cell = sub_cells.cell(sub) == sub_cells.cell(small.sub);
+          if (!same_cell && !(small.is_box && pieces.list[other].is_box))
             continue;
           const double score = pieces.list[other].part + 2. * (dim - steps);
           if (score > best_score)
@@ -259,21 +297,25 @@ namespace kedge
      * Half edges of the box that stands for a piece, a GIMP domain: its volume is that
      * of the piece, its edges are as the radii of gyration of the piece about its
      * centre. A piece that is itself a box gets this box, so that its faces lie on the
-     * body's surface.
+     * body's surface. The box of any other ends where its cell does, so that the means of the
+     * grid's functions over it are those of the cell.
      */
     template <int dim>
     dealii::Tensor<1, dim>
-    domain_of(const VolumeMoments<dim> &moments)
+    domain_of(const SubCells<dim> &sub_cells, const Piece<dim> &piece)
     {
-      const VolumeMoments<dim> central = moments.about(moments.centre());
-      dealii::Tensor<1, dim>   half;
-      double                   volume = 1;
+      dealii::Tensor<1, dim> half = box_of(piece.moments);
+      half *= std::pow(piece.moments.volume / VolumeMoments<dim>::of_box(half).volume, 1. / dim);
+      if (is_box(piece.moments))
+        return half;
+      const auto x    = sub_cells.centre(piece.sub) + piece.moments.centre();
+      const auto cell = sub_cells.cell(piece.sub);
       for (int d = 0; d < dim; ++d)
         {
-          half[d] = std::sqrt(3. * central.second[d][d] / central.volume);
-          volume *= 2. * half[d];
+          const double s = sub_cells.lattice.scaled(x[d], d) - cell[d];
+          half[d]        = std::min(half[d], std::min(s, 1. - s) * sub_cells.lattice.h[d]);
         }
-      return std::pow(central.volume / volume, 1. / dim) * half;
+      return half;
     }
 
     template <int dim>
@@ -347,7 +389,7 @@ namespace kedge
           {{first_id + points.size(),
             x,
             state_at_rest<dim>(x,
-                               piece.whole ? sub_cells.half_lengths() : domain_of(piece.moments),
+                               piece.whole ? sub_cells.half_lengths() : domain_of(sub_cells, piece),
                                piece.whole ? whole_volume : piece.moments.volume,
                                body_index,
                                density,

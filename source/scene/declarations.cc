@@ -250,13 +250,35 @@ namespace kedge
            required,
            allow.text("the name of a section of Bodies"),
            "The body whose faces they are."},
-          {"Side", required, allow.side(), "The side to which the faces look at the start."},
+          {"Side",
+           required,
+           allow.side_or_all(),
+           "The side to which the faces look at the start, rather than to another one."},
           {"Where",
            "",
-           allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-           "The part of the faces where this is true at the start; empty: all; 0: none."}};
+           allow
+             .expression(with_normal(coordinates("xyz")), coordinate_words("xyz") + normal_words())
+             .or_empty(),
+           "The part of the faces where this is true at the start, of the place and the outward "
+           "normal; empty: all; 0: none."}};
         entries.insert(entries.end(), more.begin(), more.end());
         return entries;
+      }
+
+      /** And nx, ny, nz of a surface. */
+      static std::vector<std::string>
+      with_normal(std::vector<std::string> names)
+      {
+        for (const std::string name : {"nx", "ny", "nz"})
+          if (dim == 3 || name != "nz")
+            names.push_back(name);
+        return names;
+      }
+
+      static std::string
+      normal_words()
+      {
+        return dim == 2 ? ", nx, ny" : ", nx, ny, nz";
       }
 
       ValuePattern
@@ -270,14 +292,18 @@ namespace kedge
       {
         return {
           "Tractions",
-          "Loads on the outer faces of a body that look to one side.",
+          "Loads on the outer faces of a body that look to one side or to all; on sides that are "
+          "oblique or curved on facets of its surface.",
           SectionKind::named,
           faces_of_a_body(
             {{"Traction",
               "",
-              allow.expressions({"x", "y", "z", "t"}, coordinate_words("xyz") + ", t").or_empty(),
+              allow
+                .expressions(with_normal({"x", "y", "z", "t"}),
+                             coordinate_words("xyz") + ", t" + normal_words())
+                .or_empty(),
               "Dead force per area of the undeformed face [Pa]; x, y, z is its place at the "
-              "start."},
+              "start, nx, ny, nz its outward normal."},
              {"Pressure",
               "",
               of_place_and_time().or_empty(),

@@ -151,7 +151,7 @@ namespace kedge
       find_name(reader, section, "Body", "Bodies");
       return SurfaceParameters{section.name(),
                                section.text("Body"),
-                               parse_side<dim>(section.text("Side")),
+                               parse_side_or_all<dim>(section.text("Side")),
                                section.text("Where")};
     };
     for (const std::string &name : reader.names("Surface pressures"))

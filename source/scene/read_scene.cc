@@ -219,7 +219,7 @@ namespace kedge
         TractionParameters<dim> traction;
         traction.name  = section.name();
         traction.body  = section.text("Body");
-        traction.side  = parse_side<dim>(section.text("Side"));
+        traction.side  = parse_side_or_all<dim>(section.text("Side"));
         traction.where = section.text("Where");
         if (!section.is_empty("Traction"))
           traction.traction = components<dim>(section, "Traction");

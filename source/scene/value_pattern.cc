@@ -230,6 +230,17 @@ namespace kedge
 
   template <int dim>
   ValuePattern
+  ValuePatterns<dim>::side_or_all() const
+  {
+    return ValuePattern(side().description() + ", or all", [](const auto &text) {
+      parse_side_or_all<dim>(text);
+    });
+  }
+
+
+
+  template <int dim>
+  ValuePattern
   ValuePatterns<dim>::numbers() const
   {
     return ValuePattern("numbers separated by commas", [c = constants](const auto &text) {

@@ -230,6 +230,24 @@ namespace kedge
 
 
 
+  template <int dim>
+  unsigned int
+  parse_side_or_all(const std::string &text)
+  {
+    if (text == "all")
+      return 2 * dim;
+    try
+      {
+        return parse_side<dim>(text);
+      }
+    catch (const UserError &error)
+      {
+        throw UserError(std::string(error.what()) + " Or all.");
+      }
+  }
+
+
+
   ComponentCondition
   parse_component_condition(const std::string &text, const Constants &constants)
   {
@@ -374,6 +392,10 @@ namespace kedge
 
 
 
+  template unsigned int
+  parse_side_or_all<2>(const std::string &);
+  template unsigned int
+  parse_side_or_all<3>(const std::string &);
   template unsigned int
   parse_side<2>(const std::string &);
   template unsigned int

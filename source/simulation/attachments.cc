@@ -111,29 +111,7 @@ namespace kedge
             << point->location.distance(place) << " m from its Place\n";
     }
 
-    /**
-     * Whether the face of a point's domain lies elsewhere than the body's surface: in the middle
-     * of the face, the surface is not where the domain ends.
-     */
-    template <int dim>
-    bool
-    lies_off_the_surface(const PointOrigin<dim> &point,
-                         const unsigned int      side,
-                         const Geometry<dim>    &geometry)
-    {
-      const unsigned int direction = side / 2;
-      const double       half = point.half_lengths[direction], length = 4. * half;
-      dealii::Point<dim> start = point.location;
-      if (side % 2 == 0)
-        start[direction] -= length;
-      const auto parts = geometry.inside(start, direction, length);
-      if (parts.empty())
-        return true;
-      const double end = side % 2 == 0 ? length - parts.back().first : parts.front().second;
-      return std::abs(end - half) > 1e-6 * half;
-    }
-
-    /** Warns of loads on sides that are not along the axes: their faces do not tile the surface. */
+    /** Warns of fluid on sides that are not along the axes: points' faces do not tile them. */
     template <int dim>
     void
     describe_faces(const Model<dim>        &model,
@@ -143,13 +121,15 @@ namespace kedge
     {
       unsigned int n = 0, n_oblique = 0;
       for (const auto &point : model.generated_points())
-        if (model.bodies.names[point.body] == surface.body && model.scene.bodies[point.body].clip &&
-            ((point.exposed_sides >> surface.side) & 1u) != 0)
-          {
-            ++n;
-            n_oblique +=
-              lies_off_the_surface(point, surface.side, *model.scene.bodies[point.body].geometry);
-          }
+        if (model.bodies.names[point.body] == surface.body && model.scene.bodies[point.body].clip)
+          for (unsigned int side = 0; side < 2 * dim; ++side)
+            if ((surface.side == side || surface.side == 2 * dim) &&
+                ((point.exposed_sides >> side) & 1u) != 0)
+              {
+                ++n;
+                n_oblique +=
+                  lies_off_the_surface(point, side, *model.scene.bodies[point.body].geometry);
+              }
       if (n_oblique > 0)
         out << "  note: " << section << '/' << surface.name << ": " << n_oblique << " of " << n
             << " faces of body '" << surface.body
@@ -161,8 +141,6 @@ namespace kedge
     void
     describe_places(const Model<dim> &model, std::ostream &out)
     {
-      for (const auto &traction : model.scene.tractions)
-        describe_faces(model, "Tractions", traction, out);
       for (const auto &condition : model.scene.body_conditions)
         if (!condition.section)
           describe_faces(model, "Body conditions", condition, out);

@@ -54,23 +54,23 @@ namespace kedge
         if (!traction.pressure.empty())
           following.push_back(traction);
       }
-    auto &loads = add_term(
-      std::make_unique<LoadTerm<dim>>(field,
-                                      patch,
-                                      ExternalLoads<dim>(scene.body_force,
-                                                         bodies.has_body_force,
-                                                         scene.point_loads,
-                                                         scene.constants,
-                                                         program),
-                                      SurfaceTractions<dim>(dead, scene.constants, program),
-                                      bodies.names,
-                                      motion,
-                                      scheme));
+    auto &loads = add_term(std::make_unique<LoadTerm<dim>>(
+      field,
+      patch,
+      ExternalLoads<dim>(scene.body_force,
+                         bodies.has_body_force,
+                         scene.point_loads,
+                         scene.constants,
+                         program),
+      SurfaceTractions<dim>(dead, scene.constants, program, surface_terms),
+      bodies.names,
+      motion,
+      scheme));
     if (!following.empty())
       add_term(std::make_unique<FollowerTerm<dim>>(
         field,
         patch,
-        FollowerPressures<dim>(following, scene.constants, program),
+        FollowerPressures<dim>(following, scene.constants, program, surface_terms),
         bodies.names,
         scheme));
     add_term(std::make_unique<SupportTerm<dim>>(field, patch, conditions_of(field), scheme));
@@ -169,6 +169,12 @@ namespace kedge
      * follow. */
     constexpr double smallest_spacing = 0.005;
 
+    bool
+    with_law(const ContactParameters &contact)
+    {
+      return contact.method == ContactMethod::surface_points;
+    }
+
     /** How stiff the contact of two bodies is: eps = beta M / h, eps_t by Mindlin's ratio. */
     template <int dim>
     ContactBodies<dim>
@@ -248,19 +254,17 @@ namespace kedge
 
 
 
+  /** A surface for each body that asks for one, as fine as the finest that is asked for. */
   template <int dim>
   void
-  Model<dim>::choose_contact_terms()
+  Model<dim>::choose_surface_terms()
   {
     const double h =
       points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
-    std::map<std::string, const BodySurface<dim> *> surfaces;
-    const auto with_law = [](const ContactParameters &contact) {
-      return contact.method == ContactMethod::surface_points;
-    };
     for (unsigned int b = 0; b < bodies.names.size(); ++b)
       {
-        double spacing = std::numeric_limits<double>::max(); // the finest that is asked for
+        constexpr double none    = std::numeric_limits<double>::max();
+        double           spacing = none;
         for (const ContactParameters &contact : scene.contacts)
           for (const auto *group : {&contact.first, &contact.second})
             if (with_law(contact) &&
@@ -272,19 +276,38 @@ namespace kedge
                           " cells gives body '" + bodies.names[b] +
                           "' more surface points than can be followed. Allowed: from " +
                           std::to_string(smallest_spacing) + " of a cell on.");
-        if (spacing < std::numeric_limits<double>::max())
-          surfaces[bodies.names[b]] =
-            &add_term(std::make_unique<SurfaceTerm<dim>>(bodies.names[b],
+        const bool                contact = spacing < none;
+        std::vector<unsigned int> sides; // that loads act on
+        for (const auto &traction : scene.tractions)
+          if (traction.body == bodies.names[b])
+            sides.push_back(traction.side);
+        if (contact || !sides.empty())
+          surface_terms.push_back(
+            &add_term(std::make_unique<SurfaceTerm<dim>>(scene.bodies[b],
                                                          b,
                                                          bodies.field[b],
                                                          fields[bodies.field[b]]->patch,
-                                                         scene.bodies[b].geometry,
-                                                         spacing))
-               .surface();
+                                                         contact ? spacing : default_spacing * h,
+                                                         contact,
+                                                         sides)));
       }
-    bool any = !surfaces.empty();
-    for (const ContactParameters &contact : scene.contacts)
-      any = any || is_nodal(contact.method);
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::choose_contact_terms()
+  {
+    const double h =
+      points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
+    std::map<std::string, const BodySurface<dim> *> surfaces;
+    for (const SurfaceTerm<dim> *term : surface_terms)
+      surfaces[term->surface().body_name] = &term->surface();
+    const bool any =
+      std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const auto &contact) {
+        return with_law(contact) || is_nodal(contact.method);
+      });
     if (any && dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
       throw UserError("Contact with a law runs on one process, not on several. Start kedge "
                       "without mpirun, or leave the entries of the law out of Contact.");
@@ -379,6 +402,7 @@ namespace kedge
 
 #define KEDGE_INSTANTIATE(dim)                                                     \
   template void Model<dim>::choose_terms(const unsigned int, const LoadProgram &); \
+  template void Model<dim>::choose_surface_terms();                                \
   template void Model<dim>::choose_contact_terms();
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

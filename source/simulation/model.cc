@@ -24,9 +24,10 @@ namespace kedge
              communicator)
   {
     make_fields(program);
+    choose_surface_terms();
     for (unsigned int field = 0; field < fields.size(); ++field)
       choose_terms(field, program);
-    n_field_terms = terms.size();
+    n_field_terms = terms.size() - surface_terms.size();
     choose_contact_terms();
     declare();
   }
@@ -109,11 +110,11 @@ namespace kedge
         const bool is_part = fields.size() > 1;
         if (is_part && k % n_terms == 0)
           ledger.open_part(fields[k / n_terms]->name);
-        terms[k]->declare_books(ledger);
+        terms[surface_terms.size() + k]->declare_books(ledger);
         if (is_part && (k + 1) % n_terms == 0)
           ledger.close_part();
       }
-    for (std::size_t k = n_field_terms; k < terms.size(); ++k) // those between fields
+    for (std::size_t k = surface_terms.size() + n_field_terms; k < terms.size(); ++k)
       terms[k]->declare_books(ledger);
     ledger.declare_stored("total_energy", "J", Ledger::Section::work, "energy");
     ledger.declare_error("energy_error", "J", Ledger::Section::work, "energy");

@@ -52,7 +52,7 @@ namespace kedge
                 const SurfacePoint<dim>   &face,
                 const std::vector<double> &u,
                 const double               fraction)
-        : point(expand<dim, pattern>(patch.points.stencil[face.slot]))
+        : point(expand<dim, pattern>(face.gradients))
         , at_face(expand<dim, pattern>(face.functions))
       {
         const auto offsets = node_offsets<dim, pattern>(patch.window().node_strides());
@@ -180,10 +180,11 @@ namespace kedge
 
 
   template <int dim>
-  FollowerPressures<dim>::FollowerPressures(const std::vector<TractionParameters<dim>> &parameters,
-                                            const std::map<std::string, double>        &constants,
-                                            const LoadProgram                          &program)
-    : SurfaceFaces<dim>("Traction", {parameters.begin(), parameters.end()}, constants)
+  FollowerPressures<dim>::FollowerPressures(const std::vector<TractionParameters<dim>>  &parameters,
+                                            const std::map<std::string, double>         &constants,
+                                            const LoadProgram                           &program,
+                                            const std::vector<const SurfaceTerm<dim> *> &surfaces)
+    : SurfaceFaces<dim>("Traction", {parameters.begin(), parameters.end()}, constants, surfaces)
     , program(program)
   {
     for (const auto &p : parameters)

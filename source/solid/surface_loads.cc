@@ -38,17 +38,19 @@ namespace kedge
 
 
   template <int dim>
-  SurfaceTractions<dim>::SurfaceTractions(const std::vector<TractionParameters<dim>> &parameters,
-                                          const std::map<std::string, double>        &constants,
-                                          const LoadProgram                          &program)
-    : SurfaceLoads<dim>("Traction", {parameters.begin(), parameters.end()}, constants)
+  SurfaceTractions<dim>::SurfaceTractions(const std::vector<TractionParameters<dim>>  &parameters,
+                                          const std::map<std::string, double>         &constants,
+                                          const LoadProgram                           &program,
+                                          const std::vector<const SurfaceTerm<dim> *> &surfaces)
+    : SurfaceLoads<dim>("Traction", {parameters.begin(), parameters.end()}, constants, surfaces)
     , program(program)
   {
     for (const auto &p : parameters)
       {
         std::array<Expression, std::size_t(dim)> of_surface;
         for (int d = 0; d < dim; ++d)
-          of_surface[d] = Expression(p.traction[d], {"x", "y", "z", "t"}, constants);
+          of_surface[d] =
+            Expression(p.traction[d], {"x", "y", "z", "t", "nx", "ny", "nz"}, constants);
         expressions.push_back(of_surface);
         resultants.push_back(p.resultant);
       }
@@ -63,9 +65,12 @@ namespace kedge
     std::vector<dealii::Tensor<1, dim>> result;
     for (const auto &face : this->points())
       {
-        double values[4] = {0., 0., 0., program.time(t)};
+        double values[7] = {0., 0., 0., program.time(t), 0., 0., 0.};
         for (int d = 0; d < dim; ++d)
-          values[d] = face.reference_place[d];
+          {
+            values[d]     = face.reference_place[d];
+            values[4 + d] = face.reference_normal[d];
+          }
         dealii::Tensor<1, dim> force;
         for (int d = 0; d < dim; ++d)
           force[d] = program.factor(t) * face.reference_area * expressions[face.surface][d](values);

@@ -61,15 +61,17 @@ namespace kedge
   CoveredPart<dim>
   covered_part(const Expression             &where,
                const dealii::Point<dim>     &centre,
-               const unsigned int            direction,
+               const unsigned int            side,
                const dealii::Tensor<1, dim> &half_lengths)
   {
+    const unsigned int                direction = side / 2;
     std::array<unsigned int, dim - 1> along; // the directions along the face
     for (unsigned int d = 0, k = 0; d < dim; ++d)
       if (d != direction)
         along[k++] = d;
-    double     x[3] = {0., 0., 0.};
-    const auto set  = [&](const unsigned int k, const double xi) {
+    double x[6]      = {0., 0., 0., 0., 0., 0.};
+    x[3 + direction] = side % 2 == 0 ? -1. : 1.;
+    const auto set   = [&](const unsigned int k, const double xi) {
       x[along[k]] = centre[along[k]] + xi * half_lengths[along[k]];
     };
     const auto parts_of_line = [&]() { // along the first of them

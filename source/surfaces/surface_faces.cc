@@ -1,5 +1,6 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/surfaces/covered_part.h>
+#include <kedge/surfaces/face_functions.h>
 #include <kedge/surfaces/surface_faces.h>
 
 #include <algorithm>
@@ -11,17 +12,25 @@ namespace kedge
   {
     /** Of a face: less is round-off of an edge that lies between two faces. */
     constexpr double smallest_part = 1e-9;
+
+    double
+    sign_of(const unsigned int side)
+    {
+      return side % 2 == 0 ? -1. : 1.;
+    }
   } // namespace
 
 
 
   template <int dim>
-  SurfaceFaces<dim>::SurfaceFaces(const std::string                    &what,
-                                  const std::vector<SurfaceParameters> &parameters,
-                                  const std::map<std::string, double>  &constants)
+  SurfaceFaces<dim>::SurfaceFaces(const std::string                           &what,
+                                  const std::vector<SurfaceParameters>        &parameters,
+                                  const std::map<std::string, double>         &constants,
+                                  const std::vector<const SurfaceTerm<dim> *> &surfaces)
     : what(what)
     , parameters(parameters)
     , constants(constants)
+    , surfaces(surfaces)
   {}
 
 
@@ -30,14 +39,15 @@ namespace kedge
   typename SurfaceFaces<dim>::Face
   SurfaceFaces<dim>::face_of(const GeneratedPoint<dim> &point,
                              const unsigned int         surface,
+                             const unsigned int         side,
                              const Expression          &where) const
   {
     const SurfaceParameters &p         = parameters[surface];
     const PointState<dim>   &state     = point.record.state;
-    const int                direction = static_cast<int>(p.side / 2);
+    const int                direction = static_cast<int>(side / 2);
     const double             half      = state.reference_half_lengths[direction];
-    double                   offset = p.side % 2 == 0 ? -half : half, share = 1.;
-    const Face               none{surface, 0., {}, {}};
+    double                   offset = side % 2 == 0 ? -half : half, share = 1.;
+    const Face               none{surface, side, 0., {}, {}};
     if (p.section)
       {
         offset              = *p.section - point.record.location[direction];
@@ -47,15 +57,16 @@ namespace kedge
         if (excess > -smallest_part)
           share = 0.5;
       }
-    else if (((point.exposed_sides >> p.side) & 1u) == 0)
+    else if (((point.exposed_sides >> side) & 1u) == 0)
       return none;
     dealii::Point<dim> centre = point.record.location;
     centre[direction] += offset;
-    CoveredPart<dim> part = covered_part(where, centre, direction, state.reference_half_lengths);
+    CoveredPart<dim> part = covered_part(where, centre, side, state.reference_half_lengths);
     if (part.fraction < smallest_part)
       return none;
     part.offset[direction] = offset;
     return {surface,
+            side,
             share * part.fraction * state.reference_volume / (2. * half),
             point.record.location + part.offset,
             part.offset};
@@ -86,25 +97,22 @@ namespace kedge
                             const std::vector<std::string>   &body_names)
   {
     faces_of.clear();
+    facets = SurfaceFacets<dim>();
     extents.assign(parameters.size(), SurfaceExtent<dim>());
     for (unsigned int s = 0; s < parameters.size(); ++s)
       {
-        const auto &p = parameters[s];
-        const auto  where =
-          p.where.empty() ? Expression(1.) : Expression(p.where, {"x", "y", "z"}, constants);
-        for (auto &point : points)
-          {
-            PointState<dim> &state = point.record.state;
-            if (body_names[static_cast<unsigned int>(state.body)] != p.body)
-              continue;
-            const Face face = face_of(point, s, where);
-            if (face.area == 0.)
-              continue;
-            faces_of[point.record.id].push_back(face);
-            extend(extents[s], face, state);
-            state.loaded = 1.;
-          }
-        if (extents[s].n_faces > 0 ||
+        const auto &p     = parameters[s];
+        const auto  where = p.where.empty()
+                              ? Expression(1.)
+                              : Expression(p.where, {"x", "y", "z", "nx", "ny", "nz"}, constants);
+        bool        any   = false;
+        if (on_facets(s))
+          any = facets.choose(s, p, where, *on_facets(s)) > 0.;
+        else
+          for (unsigned int side = 0; side < 2 * dim; ++side)
+            if (p.side == side || p.side == 2 * dim)
+              attach_to_points(s, side, where, points, body_names);
+        if (any || extents[s].n_faces > 0 ||
             (where.is_constant() && where.value() == 0.)) // Where = 0 switches it off
           continue;
         if (p.section)
@@ -118,6 +126,79 @@ namespace kedge
 
 
 
+  /** The surface whose facets it is about; none if the side is along the axes. */
+  template <int dim>
+  const BodySurface<dim> *
+  SurfaceFaces<dim>::on_facets(const unsigned int surface) const
+  {
+    const auto &p = parameters[surface];
+    for (const SurfaceTerm<dim> *term : surfaces)
+      if (term->surface().body_name == p.body && term->has_facets(p.side))
+        return &term->surface();
+    return nullptr;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceFaces<dim>::attach_to_points(const unsigned int                surface,
+                                      const unsigned int                side,
+                                      const Expression                 &where,
+                                      std::vector<GeneratedPoint<dim>> &points,
+                                      const std::vector<std::string>   &body_names)
+  {
+    for (auto &point : points)
+      {
+        PointState<dim> &state = point.record.state;
+        if (body_names[static_cast<unsigned int>(state.body)] != parameters[surface].body)
+          continue;
+        const Face face = face_of(point, surface, side, where);
+        if (face.area == 0.)
+          continue;
+        faces_of[point.record.id].push_back(face);
+        extend(extents[surface], face, state);
+        state.loaded = 1.;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceFaces<dim>::add_faces(const std::uint64_t    id,
+                               const unsigned int     slot,
+                               const PointState<dim> &state,
+                               const Patch<dim>      &patch)
+  {
+    const auto found = faces_of.find(id);
+    if (found == faces_of.end())
+      return;
+    const dealii::Tensor<2, dim> &F        = state.deformation_gradient;
+    const dealii::Tensor<2, dim>  cofactor = determinant(F) * transpose(invert(F));
+    for (const Face &face : found->second)
+      {
+        const int         d = static_cast<int>(face.side / 2);
+        SurfacePoint<dim> point{slot, face.surface, {}, {}, face.area, face.place, {}, {}, {}};
+        point.reference_normal[d]           = sign_of(face.side);
+        const dealii::Tensor<1, dim> offset = F * face.offset;
+        for (int i = 0; i < dim; ++i)
+          {
+            point.offset[i] = offset[i];
+            point.area[i]   = cofactor[i][d] * std::copysign(face.area, face.offset[d]);
+          }
+        point.functions = functions_at_face(patch,
+                                            slot,
+                                            patch.basis_of(static_cast<unsigned int>(state.body)),
+                                            point.offset,
+                                            point.area);
+        point.gradients = patch.points.stencil[slot];
+        faces.push_back(point);
+      }
+  }
+
+
+
   template <int dim>
   void
   SurfaceFaces<dim>::reinit(const MaterialPoints<dim> &cloud, const Patch<dim> &patch)
@@ -126,36 +207,15 @@ namespace kedge
     faces.clear();
     if (empty())
       return;
-    cloud.for_each([&](const unsigned int  number,
-                       const std::uint64_t id,
-                       const dealii::Point<dim> &,
-                       const PointState<dim> &state) {
-      if (state.loaded == 0. || points.slot_of[number] == StepPoints<dim>::no_slot)
-        return;
-      const auto found = faces_of.find(id);
-      if (found == faces_of.end())
-        return;
-      const dealii::Tensor<2, dim> &F        = state.deformation_gradient;
-      const dealii::Tensor<2, dim>  cofactor = determinant(F) * transpose(invert(F));
-      for (const Face &face : found->second)
-        {
-          const int d = static_cast<int>(parameters[face.surface].side / 2);
-          SurfacePoint<dim>
-            point{points.slot_of[number], face.surface, {}, {}, face.area, face.place, {}};
-          const dealii::Tensor<1, dim> offset = F * face.offset;
-          for (int i = 0; i < dim; ++i)
-            {
-              point.offset[i] = offset[i];
-              point.area[i]   = cofactor[i][d] * std::copysign(face.area, face.offset[d]);
-            }
-          point.functions = functions_at_face(patch,
-                                              point.slot,
-                                              patch.basis_of(static_cast<unsigned int>(state.body)),
-                                              point.offset,
-                                              point.area);
-          faces.push_back(point);
-        }
-    });
+    if (!faces_of.empty())
+      cloud.for_each([&](const unsigned int  number,
+                         const std::uint64_t id,
+                         const dealii::Point<dim> &,
+                         const PointState<dim> &state) {
+        if (state.loaded != 0. && points.slot_of[number] != StepPoints<dim>::no_slot)
+          add_faces(id, points.slot_of[number], state, patch);
+      });
+    facets.add_points(patch, faces);
     std::stable_sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
       return a.slot < b.slot;
     });

@@ -1,13 +1,44 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/points/attachment_checks.h>
 #include <kedge/surfaces/seed_surface.h>
 #include <kedge/surfaces/surface_term.h>
 
+#include <algorithm>
+
 namespace kedge
 {
+  /** Loads act on the facets of a side if its surface is not where the domains of points end. */
   template <int dim>
   void
-  SurfaceTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
+  SurfaceTerm<dim>::find_sides(const std::vector<GeneratedPoint<dim>> &points)
   {
+    on_facets.fill(false);
+    if (sides.empty() || !is_clipped)
+      return;
+    for (const GeneratedPoint<dim> &point : points)
+      if (static_cast<unsigned int>(point.record.state.body) == surface_.body)
+        for (unsigned int side = 0; side < 2 * dim; ++side)
+          if (!on_facets[side] && ((point.exposed_sides >> side) & 1u) != 0)
+            on_facets[side] = lies_off_the_surface(PointOrigin<dim>(point), side, *geometry);
+    on_facets.back() = true; // all sides: the closed surface, which stays closed however it turns
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &points)
+  {
+    find_sides(points);
+    const bool loaded = std::any_of(sides.begin(), sides.end(), [&](const unsigned int side) {
+      return on_facets[side];
+    });
+    if (loaded && dealii::Utilities::MPI::n_mpi_processes(surface_.patch.grid().communicator()) > 1)
+      throw UserError("Loads on all sides, or on sides that are oblique or curved, here of body '" +
+                      surface_.body_name +
+                      "', run on one process, not on several. Start kedge without mpirun.");
+    if (!contact && !loaded)
+      return;
     const auto        &lattice = surface_.patch.grid().lattice();
     dealii::Point<dim> upper;
     for (int d = 0; d < dim; ++d)
@@ -25,7 +56,8 @@ namespace kedge
   void
   SurfaceTerm<dim>::activate(const MaterialPoints<dim> &)
   {
-    surface_.find_roots();
+    if (surface_.n_facets() > 0)
+      surface_.find_roots();
   }
 
 
@@ -53,7 +85,8 @@ namespace kedge
   void
   SurfaceTerm<dim>::save(SavedState &state) const
   {
-    state[name()] = surface_.save();
+    if (surface_.n_facets() > 0)
+      state[name()] = surface_.save();
   }
 
 
@@ -62,7 +95,8 @@ namespace kedge
   void
   SurfaceTerm<dim>::restore(const SavedState &state)
   {
-    surface_.restore(state.at(name()));
+    if (surface_.n_facets() > 0)
+      surface_.restore(state.at(name()));
   }
 
   template class SurfaceTerm<2>;

@@ -3,6 +3,8 @@
 
 #include <kedge/porous/porous_force.h>
 
+#include <kedge/surfaces/face_functions.h>
+
 #include <gtest/gtest.h>
 
 using namespace kedge;
@@ -89,7 +91,7 @@ namespace
       constant = cloud.random_nodal(1., 3);
       for (unsigned int slot = 0; slot < points.size(); slot += 5)
         {
-          SurfacePoint<dim> face{slot, slot % 2, {}, {}, 0., {}, {}};
+          SurfacePoint<dim> face{slot, slot % 2, {}, {}, 0., {}, {}, {}, {}};
           for (int d = 0; d < dim; ++d)
             {
               face.offset[d] = random.uniform(-0.1, 0.1);

@@ -13,7 +13,7 @@ namespace
   Expression
   where(const std::string &text)
   {
-    return Expression(text, {"x", "y", "z"}, {});
+    return Expression(text, {"x", "y", "z", "nx", "ny", "nz"}, {});
   }
 } // namespace
 
@@ -24,12 +24,13 @@ TEST(SurfacesCoveredPart, IntervalsIn2d)
   half[0]         = 0.5;
   half[1]         = 0.2; // across the face
   const auto part = [&](const std::string &text) {
-    return covered_part<2>(where(text), centre, 1, half);
+    return covered_part<2>(where(text), centre, 3, half);
   };
   EXPECT_EQ(part("1").fraction, 1.);
   EXPECT_NEAR(part("1").offset.norm(), 0., 1e-15);
   EXPECT_EQ(part("0").fraction, 0.);
-  EXPECT_EQ(part("y > 3.1").fraction, 0.); // the face lies at y = 3
+  EXPECT_EQ(part("y > 3.1").fraction, 0.);             // the face lies at y = 3
+  EXPECT_EQ(part("ny > 0.5 && nx == 0").fraction, 1.); // and looks up
   // 0.5 < x < 0.83: bisection to round-off
   EXPECT_NEAR(part("x < 0.83").fraction, 0.33, 1e-14);
   EXPECT_NEAR(part("x < 0.83").offset[0], (0.5 + 0.83) / 2. - 1., 1e-14);
@@ -48,7 +49,7 @@ TEST(SurfacesCoveredPart, RectanglesIn3d)
   half[1]         = 0.2; // across the face
   half[2]         = 0.25;
   const auto part = [&](const std::string &text) {
-    return covered_part<3>(where(text), centre, 1, half);
+    return covered_part<3>(where(text), centre, 3, half);
   };
   EXPECT_NEAR(part("1").fraction, 1., 1e-14);
   // edges along the axes: to round-off

@@ -22,6 +22,16 @@ namespace kedge
                  const dealii::Point<dim>     &nearest,
                  const dealii::Tensor<1, dim> &half_lengths);
 
+  /**
+   * Whether the face of a point's domain on a side lies elsewhere than the body's surface: in the
+   * middle of the face, the surface is not where the domain ends.
+   */
+  template <int dim>
+  bool
+  lies_off_the_surface(const PointOrigin<dim> &point,
+                       const unsigned int      side,
+                       const Geometry<dim>    &geometry);
+
   /** @throws UserError if the Where of a node condition is true at no node of the grid. */
   template <int dim>
   void

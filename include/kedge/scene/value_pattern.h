@@ -94,6 +94,8 @@ namespace kedge
 
     ValuePattern
     side() const;
+    ValuePattern
+    side_or_all() const;
 
     ValuePattern
     numbers() const;

@@ -77,6 +77,11 @@ namespace kedge
   unsigned int
   parse_side(const std::string &text);
 
+  /** A side, or all of them: 2*dim. */
+  template <int dim>
+  unsigned int
+  parse_side_or_all(const std::string &text);
+
   /** free, fixed, displacement(of t), velocity(of t) or motion(of x, y, z, t, dt). */
   ComponentCondition
   parse_component_condition(const std::string                   &text,

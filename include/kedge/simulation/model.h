@@ -81,6 +81,8 @@ namespace kedge
     std::vector<NodeConditionParameters<dim>>
     conditions_of(const unsigned int field) const;
     void
+    choose_surface_terms();
+    void
     choose_contact_terms();
     void
     choose_nodal_contact_term(const ContactParameters &contact);
@@ -96,8 +98,9 @@ namespace kedge
     void
     check_overlaps() const;
 
-    std::vector<PointOrigin<dim>> generated;
-    std::size_t                   n_field_terms = 0; ///< of single fields; others come behind
+    std::vector<PointOrigin<dim>>         generated;
+    std::vector<const SurfaceTerm<dim> *> surface_terms; ///< come first
+    std::size_t n_field_terms = 0;                       ///< of single fields; others come behind
   };
 } // namespace kedge
 

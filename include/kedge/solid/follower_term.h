@@ -11,9 +11,10 @@ namespace kedge
   class FollowerPressures : public SurfaceFaces<dim>
   {
   public:
-    FollowerPressures(const std::vector<TractionParameters<dim>> &parameters,
-                      const std::map<std::string, double>        &constants,
-                      const LoadProgram                          &program = {});
+    FollowerPressures(const std::vector<TractionParameters<dim>>  &parameters,
+                      const std::map<std::string, double>         &constants,
+                      const LoadProgram                           &program  = {},
+                      const std::vector<const SurfaceTerm<dim> *> &surfaces = {});
 
     /** The pressure on a surface at a place and a time [Pa]. */
     double
@@ -43,10 +44,10 @@ namespace kedge
    * Pressures that follow outer faces as they move, turn and stretch: on a face with the
    * area a_n in configuration n
    *   f = -p(x, t) cof(I + alpha A) a_n,   x = x_n + alpha sum_B N_B(face) u_B,
-   * A the displacement gradient of the step at the face's point, alpha the fraction of the
-   * displacement at which the balance is stated (1/2 for the conserving stress). The
-   * tangent is exact, unsymmetric at the edges of the loaded surface. Books the work of f in the
-   * middle of the step.
+   * A the displacement gradient of the step at the face's point (on facets: at the place itself),
+   * alpha the fraction of the displacement at which the balance is stated (1/2 for the conserving
+   * stress). The tangent is exact, unsymmetric at the edges of the loaded surface. Books the work
+   * of f in the middle of the step.
    */
   template <int dim>
   class FollowerTerm : public Term<dim>

@@ -42,9 +42,10 @@ namespace kedge
   class SurfaceTractions : public SurfaceLoads<dim>
   {
   public:
-    SurfaceTractions(const std::vector<TractionParameters<dim>> &parameters,
-                     const std::map<std::string, double>        &constants,
-                     const LoadProgram                          &program = {});
+    SurfaceTractions(const std::vector<TractionParameters<dim>>  &parameters,
+                     const std::map<std::string, double>         &constants,
+                     const LoadProgram                           &program  = {},
+                     const std::vector<const SurfaceTerm<dim> *> &surfaces = {});
 
     std::vector<dealii::Tensor<1, dim>>
     forces(const double t) const override;
@@ -58,7 +59,7 @@ namespace kedge
 
   private:
     const LoadProgram                                     program;
-    std::vector<std::array<Expression, std::size_t(dim)>> expressions; ///< of x, y, z, t [Pa]
+    std::vector<std::array<Expression, std::size_t(dim)>> expressions; ///< of x, y, z, t, n [Pa]
     std::vector<bool>                                     resultants;
   };
 } // namespace kedge

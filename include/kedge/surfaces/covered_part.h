@@ -16,8 +16,9 @@ namespace kedge
   };
 
   /**
-   * Area and centre of the part of a face, an interval or a rectangle normal to
-   * @p direction, where @p where (of x, y, z) is true. Edges are found by bisection, to
+   * Area and centre of the part of a face, an interval or a rectangle that looks to @p side,
+   * 2*direction + (0: low, 1: high), where @p where (of x, y, z and the normal nx, ny, nz) is
+   * true. Edges are found by bisection, to
    * round-off in 2D and where they are straight along an axis in 3D; others to a
    * thousandth of the face. What is smaller than an eighth of the face may be missed.
    */
@@ -25,7 +26,7 @@ namespace kedge
   CoveredPart<dim>
   covered_part(const Expression             &where,
                const dealii::Point<dim>     &centre,
-               const unsigned int            direction,
+               const unsigned int            side,
                const dealii::Tensor<1, dim> &half_lengths);
 } // namespace kedge
 

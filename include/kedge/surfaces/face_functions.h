@@ -3,6 +3,8 @@
 
 #include <kedge/fields/patch.h>
 
+#include <optional>
+
 namespace kedge
 {
   /**
@@ -28,6 +30,19 @@ namespace kedge
                     const BasisKind    basis,
                     const double (&offset)[dim],
                     const double (&area)[dim]);
+
+  /**
+   * The functions of the grid itself in a cell, at a place @p x in it or, continued, beyond it:
+   * with their slopes. Of the quadratic basis those of the element that the cell belongs to.
+   *
+   * @return nothing if one of their nodes is not in use
+   */
+  template <int dim>
+  std::optional<Stencil<dim>>
+  functions_of_cell(const Patch<dim>         &patch,
+                    const BasisKind           basis,
+                    const LatticeIndex<dim>  &cell,
+                    const dealii::Point<dim> &x);
 } // namespace kedge
 
 #endif

@@ -11,8 +11,8 @@ namespace kedge
   {
     std::string  name;
     std::string  body;
-    unsigned int side = 0; ///< 2*direction + (0: low, 1: high)
-    std::string  where;    ///< expression of x, y, z; empty: everywhere
+    unsigned int side = 0; ///< 2*direction + (0: low, 1: high); 2*dim: all sides
+    std::string  where;    ///< expression of x, y, z, nx, ny, nz; empty: everywhere
     /** Place at the start of a section normal to the side's direction [m]; none: outer faces. */
     std::optional<double> section = {};
   };

@@ -1,29 +1,14 @@
 #ifndef kedge_surfaces_surface_faces_h
 #define kedge_surfaces_surface_faces_h
 
-#include <kedge/base/expression.h>
-#include <kedge/points/generation.h>
 #include <kedge/points/material_points.h>
-#include <kedge/surfaces/face_functions.h>
-#include <kedge/surfaces/parameters.h>
+#include <kedge/surfaces/surface_facets.h>
+#include <kedge/surfaces/surface_term.h>
 
 #include <unordered_map>
 
 namespace kedge
 {
-  /** The outer face of a material point, or a section through it, in configuration n. */
-  template <int dim>
-  struct SurfacePoint
-  {
-    unsigned int       slot;
-    unsigned int       surface;         ///< number of the surface
-    double             offset[dim];     ///< from the point to the face's centre [m]
-    double             area[dim];       ///< outward normal times area [m^2]
-    double             reference_area;  ///< of the undeformed face [m^2]
-    dealii::Point<dim> reference_place; ///< of its centre [m]
-    Stencil<dim>       functions;       ///< of the nodes at the face, see functions_at_face()
-  };
-
   /** Where the faces of a surface stood at the start. */
   template <int dim>
   struct SurfaceExtent
@@ -34,18 +19,24 @@ namespace kedge
   };
 
   /**
-   * Outer faces of bodies on which something is prescribed, or sections through them: the faces
-   * belong to material points and move and deform with them. A section that runs between two
-   * points belongs to both, half each.
+   * Outer faces of bodies on which something is prescribed, or sections through them. On sides
+   * along the axes, and in sections, they belong to material points and move and deform with them;
+   * on sides that are oblique or curved they are facets of the surface that the body carries. A
+   * section that runs between two points belongs to both, half each.
    */
   template <int dim>
   class SurfaceFaces
   {
   public:
-    /** @param what begins the message on a surface without faces */
-    SurfaceFaces(const std::string                    &what,
-                 const std::vector<SurfaceParameters> &parameters,
-                 const std::map<std::string, double>  &constants);
+    /**
+     * @param what     begins the message on a surface without faces
+     * @param surfaces that bodies carry; those of bodies that are not among them consist of the
+     *                 faces of their points, and must last as long as this
+     */
+    SurfaceFaces(const std::string                           &what,
+                 const std::vector<SurfaceParameters>        &parameters,
+                 const std::map<std::string, double>         &constants,
+                 const std::vector<const SurfaceTerm<dim> *> &surfaces = {});
 
     /**
      * Finds the faces, or the parts of them where Where is true, among the points just
@@ -95,15 +86,30 @@ namespace kedge
     struct Face
     {
       unsigned int           surface;
+      unsigned int           side;
       double                 area;   ///< undeformed [m^2]
       dealii::Point<dim>     place;  ///< of its centre, at the start [m]
       dealii::Tensor<1, dim> offset; ///< undeformed, from the point to the face's centre [m]
     };
 
-    /** The face that a generated point has on a surface; of no area if it has none. */
+    const BodySurface<dim> *
+    on_facets(const unsigned int surface) const;
+    void
+    attach_to_points(const unsigned int                surface,
+                     const unsigned int                side,
+                     const Expression                 &where,
+                     std::vector<GeneratedPoint<dim>> &points,
+                     const std::vector<std::string>   &body_names);
+    void
+    add_faces(const std::uint64_t    id,
+              const unsigned int     slot,
+              const PointState<dim> &state,
+              const Patch<dim>      &patch);
+    /** The face that a generated point has on a side of a surface; of no area if it has none. */
     Face
     face_of(const GeneratedPoint<dim> &point,
             const unsigned int         surface,
+            const unsigned int         side,
             const Expression          &where) const;
     void
     extend(SurfaceExtent<dim> &extent, const Face &face, const PointState<dim> &state) const;
@@ -111,7 +117,9 @@ namespace kedge
     const std::string                                    what;
     const std::vector<SurfaceParameters>                 parameters;
     const std::map<std::string, double>                  constants;
+    const std::vector<const SurfaceTerm<dim> *>          surfaces;
     std::unordered_map<std::uint64_t, std::vector<Face>> faces_of; ///< by id of the point
+    SurfaceFacets<dim>                                   facets;
     std::vector<SurfacePoint<dim>>                       faces;
     std::vector<SurfaceExtent<dim>>                      extents; ///< one per surface
   };

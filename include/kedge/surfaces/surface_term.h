@@ -9,25 +9,32 @@ namespace kedge
   /**
    * Lets a surface follow its body: seeds it, finds its root cells in each configuration, moves
    * it with each accepted step, keeps it in checkpoints. It has no residual; the terms that
-   * act on the surface stand behind it.
+   * act on the surface stand behind it. A surface that only loads ask for is left out where they
+   * act on sides along the axes alone: there the points' own faces serve.
    */
   template <int dim>
   class SurfaceTerm : public Term<dim>
   {
   public:
     /**
-     * @param geometry of the body
+     * @param body     whose surface it is
      * @param spacing  of the vertices [m]
+     * @param contact  whether it is needed whatever its sides are like
+     * @param sides    those on which loads act, see SurfaceParameters
      */
-    SurfaceTerm(const std::string                    &body_name,
-                const unsigned int                    body,
-                const unsigned int                    field,
-                const Patch<dim>                     &patch,
-                const std::shared_ptr<Geometry<dim>> &geometry,
-                const double                          spacing)
-      : surface_(body_name, body, field, patch)
-      , geometry(geometry)
+    SurfaceTerm(const BodyParameters<dim>       &body,
+                const unsigned int               body_index,
+                const unsigned int               field,
+                const Patch<dim>                &patch,
+                const double                     spacing,
+                const bool                       contact,
+                const std::vector<unsigned int> &sides)
+      : surface_(body.name, body_index, field, patch)
+      , geometry(body.geometry)
+      , is_clipped(body.clip)
       , spacing(spacing)
+      , contact(contact)
+      , sides(sides)
     {}
 
     std::string
@@ -36,7 +43,8 @@ namespace kedge
       return "surface of body '" + surface_.body_name + "'";
     }
 
-    /** @throws UserError if the body has no surface within the grid */
+    /** @throws UserError if the body has no surface within the grid, or on several processes if
+     * loads act on facets */
     void
     attach(std::vector<GeneratedPoint<dim>> &points) override;
 
@@ -61,10 +69,25 @@ namespace kedge
       return surface_;
     }
 
+    /** Whether loads on a side act on facets and not on the faces of points: if it has parts that
+     * are not along the axes, and if it is the whole surface. */
+    bool
+    has_facets(const unsigned int side) const
+    {
+      return on_facets[side];
+    }
+
   private:
+    void
+    find_sides(const std::vector<GeneratedPoint<dim>> &points);
+
     BodySurface<dim>                     surface_;
     const std::shared_ptr<Geometry<dim>> geometry;
+    const bool                           is_clipped; ///< or made of whole sub-cells
     const double                         spacing;
+    const bool                           contact;
+    const std::vector<unsigned int>      sides;
+    std::array<bool, 2 * dim + 1>        on_facets{};
     std::vector<dealii::Tensor<1, dim>>  displacements; ///< of the step that finish() has seen
   };
 } // namespace kedge

@@ -1,0 +1,219 @@
+#include <kedge/surfaces/face_functions.h>
+#include <kedge/surfaces/surface_facets.h>
+
+#include <cmath>
+#include <map>
+
+namespace kedge
+{
+  namespace
+  {
+    /** A place and its weight on a line or a triangle. */
+    template <int dim>
+    struct QuadraturePoint
+    {
+      std::array<double, dim> place; ///< weights of the corners
+      double                  weight;
+    };
+
+    /** Gauss points exact for polynomials of degree 5 on a line, 4 on a triangle (Dunavant 1985).
+     */
+    template <int dim>
+    const std::vector<QuadraturePoint<dim>> &
+    quadrature()
+    {
+      static const std::vector<QuadraturePoint<dim>> points = [] {
+        std::vector<QuadraturePoint<dim>> result;
+        if constexpr (dim == 2)
+          for (const int side : {-1, 0, 1})
+            {
+              const double s = 0.5 * (1. + side * std::sqrt(0.6));
+              result.push_back({{{1. - s, s}}, side == 0 ? 8. / 18. : 5. / 18.});
+            }
+        else
+          for (const auto &[a, weight] : {std::pair(0.445948490915965, 0.223381589678011),
+                                          std::pair(0.091576213509771, 0.109951743655322)})
+            for (unsigned int k = 0; k < 3; ++k)
+              {
+                QuadraturePoint<dim> point{{{a, a, a}}, weight};
+                point.place[k] = 1. - 2. * a;
+                result.push_back(point);
+              }
+        return result;
+      }();
+      return points;
+    }
+
+    /** The material points of a body, by cells. */
+    template <int dim>
+    class PointsOfBody
+    {
+    public:
+      PointsOfBody(const Patch<dim> &patch, const unsigned int body)
+        : patch(patch)
+      {
+        const auto &points = patch.points;
+        for (const auto &batch : points.batches)
+          if (batch.body == body)
+            for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+              slots[patch.window().cell_number(
+                      patch.grid().lattice().cell_of(points.location[slot]))]
+                .push_back(slot);
+      }
+
+      bool
+      empty() const
+      {
+        return slots.empty();
+      }
+
+      /** The slot of the point nearest to @p x, of the cells around if there is any. */
+      unsigned int
+      nearest(const dealii::Point<dim> &x) const
+      {
+        unsigned int best     = 0;
+        double       distance = std::numeric_limits<double>::max();
+        const auto   look     = [&](const std::vector<unsigned int> &of_cell) {
+          for (const unsigned int slot : of_cell)
+            if (const double to_x = patch.points.location[slot].distance_square(x); to_x < distance)
+              {
+                best     = slot;
+                distance = to_x;
+              }
+        };
+        const LatticeIndex<dim> here = patch.grid().lattice().cell_of(x);
+        for (int k = 0; k < (dim == 2 ? 9 : 27); ++k)
+          {
+            LatticeIndex<dim> cell = here;
+            for (int d = 0, rest = k; d < dim; ++d, rest /= 3)
+              cell[d] += rest % 3 - 1;
+            if (!patch.window().contains_cell(cell))
+              continue;
+            const auto found = slots.find(patch.window().cell_number(cell));
+            if (found != slots.end())
+              look(found->second);
+          }
+        if (distance == std::numeric_limits<double>::max())
+          for (const auto &[cell, of_cell] : slots) // far from all material
+            look(of_cell);
+        return best;
+      }
+
+    private:
+      const Patch<dim>                                 &patch;
+      std::map<unsigned int, std::vector<unsigned int>> slots; ///< by cell of the window
+    };
+
+    /** The cell that a part of a facet with these corners and this normal belongs to: inside. */
+    template <int dim>
+    LatticeIndex<dim>
+    cell_below(const Lattice<dim>                        &lattice,
+               const std::array<dealii::Point<dim>, dim> &corners,
+               const dealii::Tensor<1, dim>              &normal,
+               const FacetPart<dim>                      &part)
+    {
+      constexpr double                 depth = 1e-6; // of a cell
+      typename FacetPart<dim>::Weights middle;
+      middle.fill(1. / dim);
+      return lattice.cell_of(place_on_facet<dim>(corners, part.place(middle)) -
+                             depth * lattice.smallest_cell_size() * normal);
+    }
+
+    /** Whether a facet looks rather to this side than to others; to all of 2 dim. */
+    template <int dim>
+    bool
+    looks_to(const unsigned int side, const dealii::Tensor<1, dim> &normal)
+    {
+      if (side == 2 * dim)
+        return true;
+      unsigned int largest = 0; // of two that are as large the first
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(normal[d]) > (1. + 1e-9) * std::abs(normal[largest]))
+          largest = d;
+      return side == 2 * largest + (normal[largest] > 0.);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  double
+  SurfaceFacets<dim>::choose(const unsigned int       number,
+                             const SurfaceParameters &parameters,
+                             const Expression        &where,
+                             const BodySurface<dim>  &surface)
+  {
+    Chosen result{number, &surface, surface.mesh(), {}};
+    double area = 0.;
+    for (unsigned int f = 0; f < surface.n_facets(); ++f)
+      {
+        const auto corners = surface.mesh().corners(f);
+        if (!looks_to<dim>(parameters.side, area_vector<dim>(corners)))
+          continue;
+        for (const auto &part : parts_where<dim>(where, corners))
+          {
+            result.parts.push_back({f, surface.reference_area(f), part});
+            area += part.fraction() * surface.reference_area(f);
+          }
+      }
+    chosen.push_back(std::move(result));
+    return area;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceFacets<dim>::add_points(const Patch<dim>               &patch,
+                                 std::vector<SurfacePoint<dim>> &points) const
+  {
+    const auto &lattice = patch.grid().lattice();
+    for (const Chosen &here : chosen)
+      {
+        if (&here.surface->patch != &patch)
+          continue;
+        const PointsOfBody<dim> body(patch, here.surface->body);
+        const BasisKind         basis = patch.basis_of(here.surface->body);
+        for (const Part &part : here.parts)
+          {
+            const auto corners = here.surface->mesh().corners(part.facet);
+            const auto start   = here.start.corners(part.facet);
+            const auto area = area_vector<dim>(corners), area_at_start = area_vector<dim>(start);
+            for (const auto &piece : cut_to_cells<dim>(lattice, corners, part.covered))
+              {
+                const auto   cell = cell_below<dim>(lattice, corners, area / area.norm(), piece);
+                const double fraction = piece.fraction();
+                for (const auto &gauss : quadrature<dim>())
+                  {
+                    const auto        weights = piece.place(gauss.place);
+                    const auto        x       = place_on_facet<dim>(corners, weights);
+                    SurfacePoint<dim> point;
+                    point.slot             = body.nearest(x);
+                    point.surface          = here.number;
+                    point.reference_area   = gauss.weight * fraction * part.area;
+                    point.reference_place  = place_on_facet<dim>(start, weights);
+                    point.reference_normal = area_at_start / area_at_start.norm();
+                    for (int d = 0; d < dim; ++d)
+                      {
+                        point.offset[d] = x[d] - patch.points.location[point.slot][d];
+                        point.area[d]   = gauss.weight * fraction * area[d];
+                      }
+                    auto functions = functions_of_cell<dim>(patch, basis, cell, x);
+                    if (!functions)
+                      functions =
+                        functions_of_cell<dim>(patch,
+                                               basis,
+                                               lattice.cell_of(patch.points.location[point.slot]),
+                                               x);
+                    AssertThrow(functions, dealii::ExcInternalError());
+                    point.functions = point.gradients = *functions;
+                    points.push_back(point);
+                  }
+              }
+          }
+      }
+  }
+
+  template class SurfaceFacets<2>;
+  template class SurfaceFacets<3>;
+} // namespace kedge
