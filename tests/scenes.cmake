@@ -74,6 +74,9 @@ kedge_add_scene_test(scene.patch_oblique.triangle prm/patch_oblique.prm
       "Constants/area = 0.55065")
 kedge_add_scene_test(scene.lame_cylinder prm/lame_cylinder.prm)
 kedge_add_scene_test(scene.lame_cylinder.finer prm/lame_cylinder.prm SET "Constants/n = 32")
+kedge_add_scene_test(scene.plate_with_hole prm/plate_with_hole.prm)
+kedge_add_scene_test(scene.plate_with_hole.coarser prm/plate_with_hole.prm SET "Constants/n = 8")
+kedge_add_scene_test(scene.cooks_membrane prm/cooks_membrane.prm)
 kedge_add_scene_test(scene.lame_sphere prm/lame_sphere.prm)
 kedge_add_scene_test(scene.lame_cylinder_limit prm/lame_cylinder_limit.prm)
 kedge_add_scene_test(scene.turning_under_pressure tests/scenes/turning_under_pressure.prm)
@@ -317,6 +320,8 @@ kedge_add_restart_test(scene.restart.fields prm/crossing_bodies.prm KILLS 1
   SET "Output/Checkpoint every steps = 5")
 # surfaces and closed contacts go on where they were
 kedge_add_restart_test(scene.restart.contact prm/block_on_incline.prm KILLS 1
+  SET "Output/Checkpoint every steps = 5")
+kedge_add_restart_test(scene.restart.facets tests/scenes/turning_under_pressure.prm KILLS 1
   SET "Output/Checkpoint every steps = 5")
 # the clock goes on in the steps that Newton's method has found good
 kedge_add_restart_test(scene.restart.adapted_steps prm/collapse.prm KILLS 1
