@@ -108,6 +108,7 @@ kedge_add_scene_test(scene.lost_support tests/scenes/lost_support.prm EXPECT_EXI
   EXPECT_STDERR "^$")
 kedge_add_scene_test(scene.lost_support.note tests/scenes/lost_support.prm OPTIONS --validate
   EXPECT_STDOUT "grip moves what it holds by 8 cells, but its nodes stay")
+kedge_add_scene_test(scene.shear_patch prm/shear_patch.prm)
 # pressures that follow: uniform stress again, and Archimedes
 kedge_add_scene_test(scene.patch_pressure tests/scenes/patch_pressure.prm)
 kedge_add_scene_test(scene.patch_pressure.0.5 tests/scenes/patch_pressure.prm

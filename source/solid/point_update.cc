@@ -4,6 +4,10 @@
 #include <kedge/solid/point_update.h>
 #include <kedge/stress/mean_dilatation.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 namespace kedge
 {
   namespace
@@ -81,31 +85,6 @@ namespace kedge
         }
       return PointStatus::none;
     }
-
-    /** Diagonal of the right stretch U = (F^T F)^{1/2}. */
-    template <int dim>
-    void
-    stretch_diagonal(const Pack (&F)[dim][dim], Pack (&diagonal)[dim])
-    {
-      Pack zero[dim], C[dim][dim], squares[dim], W[dim][dim];
-      for (int i = 0; i < dim; ++i)
-        {
-          zero[i] = diagonal[i] = 0.;
-          for (int j = 0; j < dim; ++j)
-            {
-              C[i][j] = 0.;
-              for (int k = 0; k < dim; ++k)
-                C[i][j] += F[k][i] * F[k][j];
-            }
-        }
-      incremental_spectrum<dim>(zero, C, squares, W);
-      for (int k = 0; k < dim; ++k)
-        {
-          const Pack stretch = sqrt(squares[k]);
-          for (int i = 0; i < dim; ++i)
-            diagonal[i] += W[i][k] * W[i][k] * stretch;
-        }
-    }
   } // namespace
 
 
@@ -169,26 +148,61 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** A frame that turns by less than its square root is not turned at all. */
+    constexpr double no_turn = 1e-20;
+
+    /**
+     * Edges of the box that stands for the image of a unit cube: of the cube's edges in turn, each
+     * the part normal to those before. The orders are weighted by how little their frames are
+     * turned.
+     */
+    template <int dim>
+    dealii::Tensor<1, dim>
+    edges_of_box(const dealii::Tensor<2, dim> &F)
+    {
+      std::array<int, std::size_t(dim)> order;
+      std::iota(order.begin(), order.end(), 0);
+      double                 sum_of_weights = 0.;
+      dealii::Tensor<1, dim> logarithm;
+      do
+        {
+          std::array<dealii::Tensor<1, dim>, std::size_t(dim)> frame;
+          dealii::Tensor<1, dim>                               edge;
+          double                                               turn = 0.;
+          for (int k = 0; k < dim; ++k)
+            {
+              dealii::Tensor<1, dim> v;
+              for (int i = 0; i < dim; ++i)
+                v[i] = F[i][order[k]];
+              for (int j = 0; j < k; ++j)
+                v -= (v * frame[j]) * frame[j];
+              edge[order[k]] = v.norm();
+              frame[k]       = v / edge[order[k]];
+              turn += 2. - 2. * frame[k][order[k]]; // |q - e|^2
+            }
+          const double weight = 1. / (std::max(turn, 0.) + no_turn);
+          sum_of_weights += weight;
+          for (int d = 0; d < dim; ++d)
+            logarithm[d] += weight * std::log(edge[d]);
+      } while (std::next_permutation(order.begin(), order.end()));
+      dealii::Tensor<1, dim> result;
+      for (int d = 0; d < dim; ++d)
+        result[d] = std::exp(logarithm[d] / sum_of_weights);
+      return result;
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   stretches_along_axes(const std::vector<dealii::Tensor<2, dim>> &deformation_gradients)
   {
-    const unsigned int                  n = deformation_gradients.size();
-    std::vector<dealii::Tensor<1, dim>> result(n);
-    for (unsigned int begin = 0; begin < n;)
-      {
-        const PackOfSlots slots(begin, n);
-        Pack              F[dim][dim], stretch[dim];
-        for (unsigned int lane = 0; lane < pack_width; ++lane)
-          for (int i = 0; i < dim; ++i)
-            for (int j = 0; j < dim; ++j)
-              F[i][j].set(lane, deformation_gradients[slots.slot(lane)][i][j]);
-        stretch_diagonal<dim>(F, stretch);
-        for (unsigned int lane = 0; lane < slots.count; ++lane)
-          for (int d = 0; d < dim; ++d)
-            result[begin + lane][d] = stretch[d][lane];
-        begin += slots.count;
-      }
+    std::vector<dealii::Tensor<1, dim>> result;
+    for (const auto &F : deformation_gradients)
+      result.push_back(edges_of_box(F));
     return result;
   }
 

@@ -31,8 +31,11 @@ namespace kedge
                      PointState<dim>                 &state);
 
   /**
-   * Diagonals of the right stretches U = (F^T F)^{1/2}, by which the points'
-   * GIMP domains are scaled (Coombs et al. 2020) [-].
+   * By which the edges of the points' GIMP domains, boxes along the axes, are scaled [-]: the
+   * edges that Gram-Schmidt leaves of F's columns, taken in all orders, whose logarithms are
+   * weighted by the inverse of how far the frame is turned, sum_k |q_k - e_k|^2. Volumes are those
+   * of F; boxes of a body that is stretched or sheared along an axis tile it, whatever the shear;
+   * where the body turns the boxes do not shrink, but no boxes along the axes tile it then.
    */
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
