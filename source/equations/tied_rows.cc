@@ -87,10 +87,11 @@ namespace kedge
           const NodalStatus s = status[std::size_t(i) * n_components + c];
           if (s == NodalStatus::prescribed)
             continue;
-          const int  tie = s == NodalStatus::tied ? patch.ties.tie_of(i, static_cast<int>(c)) : -1;
-          const bool apart = c == dim && tie != patch.ties.tie_of(i);
-          Part      &part  = parts[i][tie < 0 ? 0 : apart ? 2 : 1];
-          part.tie         = tie;
+          const int tie = s == NodalStatus::tied ? patch.ties.tie_of(i, static_cast<int>(c)) : -1;
+          Part &part = *std::find_if(parts[i].begin(), parts[i].end() - 1, [&](const Part &other) {
+            return other.components == 0 || other.tie == tie;
+          });
+          part.tie   = tie;
           part.components |= 1u << c;
         }
     for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)

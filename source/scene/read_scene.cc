@@ -164,7 +164,10 @@ namespace kedge
       std::vector<NodeConditionParameters<dim>> conditions;
       for_each_name(reader, "Node conditions", [&](const SectionReader &section) {
         NodeConditionParameters<dim> condition;
-        condition.name    = section.name();
+        condition.name = section.name();
+        if (!section.is_empty("Body"))
+          find_name(reader, section, "Body", "Bodies");
+        condition.body    = section.text("Body");
         condition.on_side = first_is_given(section, "Side", "Where");
         if (condition.on_side)
           condition.side = parse_side<dim>(section.text("Side"));
@@ -426,13 +429,6 @@ namespace kedge
         scene.bodies =
           read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
       });
-    errors.attempt([&]() {
-      for_each_name(reader, "Node conditions", [&](const SectionReader &section) {
-        if (!section.is_empty("Body"))
-          find_name(reader, section, "Body", "Bodies");
-        scene.node_condition_bodies.push_back(section.text("Body"));
-      });
-    });
     errors.attempt([&]() {
       scene.contacts = read_contacts<dim>(reader);
     });

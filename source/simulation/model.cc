@@ -83,15 +83,13 @@ namespace kedge
   Model<dim>::conditions_of(const unsigned int field) const
   {
     std::vector<NodeConditionParameters<dim>> result;
-    for (std::size_t c = 0; c < scene.node_conditions.size(); ++c)
+    for (const auto &condition : scene.node_conditions)
       {
-        const std::string body =
-          c < scene.node_condition_bodies.size() ? scene.node_condition_bodies[c] : "";
-        bool holds = body.empty();
+        bool holds = condition.body.empty();
         for (std::size_t b = 0; b < bodies.names.size(); ++b)
-          holds = holds || (bodies.names[b] == body && bodies.field[b] == field);
+          holds = holds || (bodies.names[b] == condition.body && bodies.field[b] == field);
         if (holds)
-          result.push_back(scene.node_conditions[c]);
+          result.push_back(condition);
       }
     return result;
   }

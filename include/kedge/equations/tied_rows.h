@@ -86,7 +86,7 @@ namespace kedge
       int          tie;
       unsigned int components;
     };
-    using Parts = std::array<Part, 3>; ///< free, displacement, pressure
+    using Parts = std::array<Part, 3>; ///< more are not: the free ones and those of two ties
 
     std::size_t
     first_value(const Row &row, const unsigned int p) const

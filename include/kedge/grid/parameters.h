@@ -59,6 +59,7 @@ namespace kedge
     std::array<ComponentCondition, dim> components;
     bool                                reaction = false; ///< history.csv shows its force
     std::string pore_pressure; ///< expression of x, y, z, t [Pa]; empty: no condition
+    std::string body;          ///< whose field alone it holds; empty: all
   };
 } // namespace kedge
 

@@ -29,8 +29,6 @@ namespace kedge
     std::map<std::string, double>             constants; ///< of all expressions
     GridParameters<dim>                       grid;
     std::vector<NodeConditionParameters<dim>> node_conditions;
-    /** One per node condition, or none at all: a body, whose field alone it holds; empty: all. */
-    std::vector<std::string>                  node_condition_bodies;
     std::vector<MaterialParameters>           materials;
     std::vector<BodyParameters<dim>>          bodies;
     std::vector<ContactParameters>            contacts;
