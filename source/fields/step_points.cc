@@ -29,7 +29,7 @@ namespace kedge
 
   template <int dim>
   StressState<dim>
-  make_stress_state(const PointState<dim> &state)
+  make_stress_state(const PointCore<dim> &state)
   {
     return make_stress_state<dim>(state.elastic_frame,
                                   state.out_of_plane_elastic_stretch,
@@ -158,10 +158,10 @@ namespace kedge
     for (auto *numbers : {&cell, &body, &number})
       numbers->reserve(points.n_local());
     stencils.reserve(points.n_local());
-    points.for_each([&](const unsigned int i,
-                        const std::uint64_t,
-                        const dealii::Point<dim> &x,
-                        const PointState<dim>    &state) {
+    points.for_each_core([&](const unsigned int i,
+                             const std::uint64_t,
+                             const dealii::Point<dim> &x,
+                             const PointCore<dim>     &state) {
       const auto of_body = static_cast<unsigned int>(state.body);
       if (!members.empty() && !members[of_body])
         return;
@@ -186,14 +186,21 @@ namespace kedge
         slot_of[number[i]]   = slot;
         local_number[slot]   = number[i];
       }
+    read_states(points, columns_of_body);
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::read_states(const MaterialPoints<dim> &points,
+                               const MemoryColumns       &columns_of_body)
+  {
     loaded.clear();
-    points.for_each([&](const unsigned int        i,
-                        const std::uint64_t       point_id,
-                        const dealii::Point<dim> &x,
-                        const PointState<dim>    &state) {
-      const unsigned int slot = slot_of[i];
-      if (slot == no_slot)
-        return;
+    const auto read_core = [&](const unsigned int        slot,
+                               const std::uint64_t       point_id,
+                               const dealii::Point<dim> &x,
+                               const PointCore<dim>     &state) {
       id[slot] = point_id;
       if (state.loaded != 0.)
         loaded.push_back(slot);
@@ -202,11 +209,29 @@ namespace kedge
       location[slot]     = x;
       determinant[slot]  = dealii::determinant(state.deformation_gradient);
       velocity[slot]     = state.velocity;
-      acceleration[slot] = state.acceleration;
       stress_state[slot] = make_stress_state(state);
-      if (n_history > 0)
-        set_history(slot, state, columns_of_body[static_cast<unsigned int>(state.body)]);
-    });
+    };
+    if (points.stores_extras() || n_history > 0)
+      points.for_each([&](const unsigned int        i,
+                          const std::uint64_t       point_id,
+                          const dealii::Point<dim> &x,
+                          const PointState<dim>    &state) {
+        const unsigned int slot = slot_of[i];
+        if (slot == no_slot)
+          return;
+        read_core(slot, point_id, x, state);
+        acceleration[slot] = state.acceleration;
+        if (n_history > 0)
+          set_history(slot, state, columns_of_body[static_cast<unsigned int>(state.body)]);
+      });
+    else // accelerations stay as resize() made them
+      points.for_each_core([&](const unsigned int        i,
+                               const std::uint64_t       point_id,
+                               const dealii::Point<dim> &x,
+                               const PointCore<dim>     &state) {
+        if (slot_of[i] != no_slot)
+          read_core(slot_of[i], point_id, x, state);
+      });
     std::sort(loaded.begin(), loaded.end());
   }
 
@@ -236,7 +261,7 @@ namespace kedge
 
 #define KEDGE_INSTANTIATE(dim)     \
   template struct StepPoints<dim>; \
-  template StressState<dim> make_stress_state<dim>(const PointState<dim> &);
+  template StressState<dim> make_stress_state<dim>(const PointCore<dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 } // namespace kedge

@@ -97,10 +97,10 @@ namespace kedge
   PointsOnGrid<dim>::follow()
   {
     bool close = false, outside = false;
-    cloud.for_each([&](const unsigned int,
-                       const std::uint64_t,
-                       const dealii::Point<dim> &x,
-                       const PointState<dim> &) {
+    cloud.for_each_core([&](const unsigned int,
+                            const std::uint64_t,
+                            const dealii::Point<dim> &x,
+                            const PointCore<dim> &) {
       const auto cell = background.lattice().cell_of(x);
       close           = close || background.too_close_to_border(cell);
       outside         = outside || !background.window().contains_cell(cell);

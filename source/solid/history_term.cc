@@ -54,7 +54,7 @@ namespace kedge
   {
     const std::vector<unsigned int>    &slot_of = patch.points.slot_of;
     std::vector<dealii::Tensor<2, dim>> deformation_gradients(patch.points.size());
-    cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
+    const auto apply = [&](const unsigned int number, dealii::Point<dim> &, auto &state) {
       const unsigned int slot = slot_of[number];
       if (slot == StepPoints<dim>::no_slot)
         return;
@@ -62,13 +62,18 @@ namespace kedge
                          columns_of_body[static_cast<unsigned int>(state.body)],
                          state);
       deformation_gradients[slot] = state.deformation_gradient;
-    });
+    };
+    if (cloud.stores_extras())
+      cloud.update_each(apply);
+    else
+      cloud.update_each_core(apply);
     const auto stretches = stretches_along_axes(deformation_gradients);
-    cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
-      const unsigned int slot = slot_of[number];
-      for (int d = 0; d < dim && slot != StepPoints<dim>::no_slot; ++d)
-        state.half_lengths[d] = state.reference_half_lengths[d] * stretches[slot][d];
-    });
+    cloud.update_each_core(
+      [&](const unsigned int number, dealii::Point<dim> &, PointCore<dim> &state) {
+        const unsigned int slot = slot_of[number];
+        for (int d = 0; d < dim && slot != StepPoints<dim>::no_slot; ++d)
+          state.half_lengths[d] = state.reference_half_lengths[d] * stretches[slot][d];
+      });
   }
 
 
@@ -79,16 +84,26 @@ namespace kedge
   {
     // in the order of the slots, which does not depend on how the run got here
     std::vector<std::array<double, 3>> energies(patch.points.size());
-    cloud.for_each([&](const unsigned int number,
-                       const std::uint64_t,
-                       const dealii::Point<dim> &,
-                       const PointState<dim> &state) {
+    cloud.for_each_core([&](const unsigned int number,
+                            const std::uint64_t,
+                            const dealii::Point<dim> &,
+                            const PointCore<dim> &state) {
       const unsigned int slot = patch.points.slot_of[number];
-      const double       V0   = state.reference_volume;
       if (slot != StepPoints<dim>::no_slot)
-        energies[slot] = {
-          {V0 * state.strain_energy, V0 * state.hardening_energy, V0 * state.plastic_dissipation}};
+        energies[slot] = {{state.reference_volume * state.strain_energy, 0., 0.}};
     });
+    if (has_plasticity)
+      cloud.for_each([&](const unsigned int number,
+                         const std::uint64_t,
+                         const dealii::Point<dim> &,
+                         const PointState<dim> &state) {
+        const unsigned int slot = patch.points.slot_of[number];
+        const double       V0   = state.reference_volume;
+        if (slot == StepPoints<dim>::no_slot)
+          return;
+        energies[slot][1] = V0 * state.hardening_energy;
+        energies[slot][2] = V0 * state.plastic_dissipation;
+      });
     double sums[3] = {0., 0., 0.};
     for (const auto &of_point : energies)
       for (int e = 0; e < 3; ++e)

@@ -120,9 +120,9 @@ namespace kedge
 
   template <int dim>
   void
-  apply_point_update(const PointUpdate<dim>          &update,
-                     const std::vector<unsigned int> &columns,
-                     PointState<dim>                 &state)
+  apply_point_update(const PointUpdate<dim> &update,
+                     const std::vector<unsigned int> &,
+                     PointCore<dim> &state)
   {
     dealii::Tensor<2, dim> dF;
     for (int i = 0; i < dim; ++i)
@@ -139,6 +139,17 @@ namespace kedge
     state.strain_energy                 = update.strain_energy;
     if (dim == 2)
       state.out_of_plane_elastic_stretch *= update.out_of_plane_stretch_factor;
+  }
+
+
+
+  template <int dim>
+  void
+  apply_point_update(const PointUpdate<dim>          &update,
+                     const std::vector<unsigned int> &columns,
+                     PointState<dim>                 &state)
+  {
+    apply_point_update(update, columns, static_cast<PointCore<dim> &>(state));
     state.hardening_energy = update.hardening_energy;
     state.plastic_dissipation += update.dissipation;
     for (unsigned int c = 0; c < columns.size(); ++c)
@@ -214,6 +225,9 @@ namespace kedge
   template void                                apply_point_update(const PointUpdate<dim> &,             \
                                                                   const std::vector<unsigned int> &,    \
                                                                   PointState<dim> &);                   \
+  template void                                apply_point_update(const PointUpdate<dim> &,             \
+                                                                  const std::vector<unsigned int> &,    \
+                                                                  PointCore<dim> &);                    \
   template std::vector<dealii::Tensor<1, dim>> stretches_along_axes(                                    \
     const std::vector<dealii::Tensor<2, dim>> &);
   KEDGE_INSTANTIATE(2)

@@ -166,10 +166,10 @@ namespace kedge
 
   template <int dim>
   void
-  SurfaceFaces<dim>::add_faces(const std::uint64_t    id,
-                               const unsigned int     slot,
-                               const PointState<dim> &state,
-                               const Patch<dim>      &patch)
+  SurfaceFaces<dim>::add_faces(const std::uint64_t   id,
+                               const unsigned int    slot,
+                               const PointCore<dim> &state,
+                               const Patch<dim>     &patch)
   {
     const auto found = faces_of.find(id);
     if (found == faces_of.end())
@@ -208,10 +208,10 @@ namespace kedge
     if (empty())
       return;
     if (!faces_of.empty())
-      cloud.for_each([&](const unsigned int  number,
-                         const std::uint64_t id,
-                         const dealii::Point<dim> &,
-                         const PointState<dim> &state) {
+      cloud.for_each_core([&](const unsigned int  number,
+                              const std::uint64_t id,
+                              const dealii::Point<dim> &,
+                              const PointCore<dim> &state) {
         if (state.loaded != 0. && points.slot_of[number] != StepPoints<dim>::no_slot)
           add_faces(id, points.slot_of[number], state, patch);
       });

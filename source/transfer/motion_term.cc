@@ -70,16 +70,19 @@ namespace kedge
   {
     if (transfer != nullptr)
       transfer->to_points(trial);
-    cloud.update_each(
-      [&](const unsigned int number, dealii::Point<dim> &location, PointState<dim> &state) {
-        const unsigned int slot = patch.points.slot_of[number];
-        if (slot == StepPoints<dim>::no_slot)
-          return;
-        location += point_displacements[slot];
-        state.displacement += point_displacements[slot];
-        if (transfer != nullptr)
-          transfer->update(slot, state);
-      });
+    const auto move = [&](const unsigned int number, dealii::Point<dim> &location, auto &state) {
+      const unsigned int slot = patch.points.slot_of[number];
+      if (slot == StepPoints<dim>::no_slot)
+        return;
+      location += point_displacements[slot];
+      state.displacement += point_displacements[slot];
+      if (transfer != nullptr)
+        transfer->update(slot, state);
+    };
+    if (transfer != nullptr && transfer->carries_acceleration())
+      cloud.update_each(move);
+    else
+      cloud.update_each_core(move);
   }
 
 

@@ -101,14 +101,22 @@ namespace kedge
 
   template <int dim>
   void
-  MotionTransfer<dim>::update(const unsigned int slot, PointState<dim> &state) const
+  MotionTransfer<dim>::update(const unsigned int slot, PointCore<dim> &state) const
   {
     if (parameters.velocity_mapping == VelocityUpdate::flip)
       state.velocity += velocities[slot];
     else
       state.velocity = velocities[slot];
-    if (scheme.carries_acceleration)
-      state.acceleration = accelerations[slot];
+  }
+
+
+
+  template <int dim>
+  void
+  MotionTransfer<dim>::update(const unsigned int slot, PointState<dim> &state) const
+  {
+    update(slot, static_cast<PointCore<dim> &>(state));
+    state.acceleration = accelerations[slot];
   }
 
 

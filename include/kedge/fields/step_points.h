@@ -112,6 +112,9 @@ namespace kedge
   private:
     void
     resize(const unsigned int n);
+    /** Fills the slots from the cloud; those of points that it takes are known. */
+    void
+    read_states(const MaterialPoints<dim> &points, const MemoryColumns &columns_of_body);
     void
     set_history(const unsigned int               slot,
                 const PointState<dim>           &state,
@@ -131,7 +134,7 @@ namespace kedge
   /** The stress state of a committed history. */
   template <int dim>
   StressState<dim>
-  make_stress_state(const PointState<dim> &state);
+  make_stress_state(const PointCore<dim> &state);
 
   /**
    * All basis functions of a stencil of a given pattern: N_A and dN_A/dx_d,

@@ -83,6 +83,42 @@ namespace kedge
         }
     }
 
+    /** As for_each() with the core alone, where it is stored: visit(number, id, location, core). */
+    template <typename Visitor>
+    void
+    for_each_core(const Visitor &visit) const
+    {
+      unsigned int number = 0;
+      for (const auto &particle : *handler)
+        visit(number++,
+              particle.get_id(),
+              particle.get_location(),
+              *reinterpret_cast<const PointCore<dim> *>(particle.get_properties().data()));
+    }
+
+    /** As update_each() with the core alone, where it is stored. */
+    template <typename Update>
+    void
+    update_each_core(const Update &update)
+    {
+      unsigned int number = 0;
+      for (auto &particle : *handler)
+        {
+          dealii::Point<dim> location = particle.get_location();
+          update(number++,
+                 location,
+                 *reinterpret_cast<PointCore<dim> *>(particle.get_properties().data()));
+          particle.set_location(location);
+        }
+    }
+
+    /** Whether the points store more than their core. */
+    bool
+    stores_extras() const
+    {
+      return layout.has_extras();
+    }
+
     /**
      * Sorts the points into the cells (and to the ranks) where they stand
      * now (collective). All must lie in the window.

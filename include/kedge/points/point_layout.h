@@ -33,8 +33,8 @@ namespace kedge
                 const bool                       pores,
                 const bool                       accelerations)
     {
-      using S = PointState<dim>;
-      add(0, offsetof(S, acceleration));
+      using S = PointExtras<dim>;
+      ranges.push_back({0, n_core_values<dim>});
       if (accelerations)
         add(offsetof(S, acceleration), offsetof(S, memory));
       for (const unsigned int column : memory)
@@ -46,7 +46,14 @@ namespace kedge
         add(offsetof(S, pore_pressure), sizeof(S));
     }
 
-    /** Doubles per point. */
+    /** Whether anything is stored besides the core. */
+    bool
+    has_extras() const
+    {
+      return n_values() > n_core_values<dim>;
+    }
+
+    /** Doubles per point; the first of them are the core. */
     unsigned int
     n_values() const
     {
@@ -86,11 +93,13 @@ namespace kedge
       unsigned int begin, count;
     };
 
+    /** Adds a range of the extras. */
     void
     add(const std::size_t begin_bytes, const std::size_t end_bytes)
     {
-      const unsigned int begin = begin_bytes / sizeof(double), end = end_bytes / sizeof(double);
-      if (!ranges.empty() && ranges.back().begin + ranges.back().count == begin)
+      const unsigned int begin = n_core_values<dim> + begin_bytes / sizeof(double);
+      const unsigned int end   = n_core_values<dim> + end_bytes / sizeof(double);
+      if (ranges.back().begin + ranges.back().count == begin)
         ranges.back().count += end - begin;
       else
         ranges.push_back({begin, end - begin});

@@ -15,16 +15,15 @@ namespace kedge
   constexpr unsigned int most_memory_columns = 16;
 
   /**
-   * The committed history of one material point: what it knows at the end of
-   * the last accepted step. It consists of plain doubles; the cloud stores those
-   * that its scene uses (PointLayout) in the particle handler's property pool.
+   * What every material point knows at the end of the last accepted step, in
+   * any scene. It consists of plain doubles.
    *
    * Tensors of a plane-strain run (dim = 2) hold the in-plane part; the
    * out-of-plane components that are not constant stand in fields of their
    * own. The total out-of-plane stretch of plane strain is 1.
    */
   template <int dim>
-  struct PointState
+  struct PointCore
   {
     double                 body;                   ///< index of its body [-]
     double                 loaded;                 ///< 1 if point loads or tractions act on it
@@ -45,8 +44,12 @@ namespace kedge
     dealii::SymmetricTensor<2, dim> kirchhoff_stress;              ///< tau [Pa]
     double                          out_of_plane_kirchhoff_stress; ///< plane strain; 0 in 3D [Pa]
     double                          strain_energy; ///< elastic free energy per V0 [J/m^3]
+  };
 
-    // from here on stored only where a scene uses it (PointLayout)
+  /** What a point knows besides, stored only where a scene uses it (PointLayout). */
+  template <int dim>
+  struct PointExtras
+  {
     dealii::Tensor<1, dim> acceleration; ///< [m/s^2], if the scheme carries it
     /** What its law remembers or takes from its place, in the columns that all laws share. */
     double memory[most_memory_columns];
@@ -62,12 +65,28 @@ namespace kedge
     dealii::Tensor<1, dim> darcy_velocity;            ///< fluid's volume per area and time [m/s]
   };
 
+  /**
+   * The committed history of one material point: what it knows at the end of
+   * the last accepted step. The cloud stores the core and those extras that its
+   * scene uses in the particle handler's property pool.
+   */
+  template <int dim>
+  struct PointState
+    : PointCore<dim>
+    , PointExtras<dim>
+  {};
+
+  template <int dim>
+  constexpr unsigned int n_core_values = sizeof(PointCore<dim>) / sizeof(double);
   template <int dim>
   constexpr unsigned int n_state_values = sizeof(PointState<dim>) / sizeof(double);
 
-  static_assert(std::is_standard_layout_v<PointState<2>> &&
-                std::is_standard_layout_v<PointState<3>>);
-  static_assert(sizeof(PointState<3>) % sizeof(double) == 0);
+  // both consist of doubles alone, and the state of both, one after the other
+  static_assert(std::is_standard_layout_v<PointCore<2>> && std::is_standard_layout_v<PointCore<3>>);
+  static_assert(std::is_standard_layout_v<PointExtras<3>>);
+  static_assert(std::is_trivially_copyable_v<PointState<3>>);
+  static_assert(sizeof(PointState<2>) == sizeof(PointCore<2>) + sizeof(PointExtras<2>));
+  static_assert(sizeof(PointState<3>) == sizeof(PointCore<3>) + sizeof(PointExtras<3>));
 
   /** A material point as it leaves the cloud: for output, checkpoints, rebuilding. */
   template <int dim>

@@ -29,6 +29,12 @@ namespace kedge
   apply_point_update(const PointUpdate<dim>          &update,
                      const std::vector<unsigned int> &columns,
                      PointState<dim>                 &state);
+  /** The same for a point of which nothing but the core is stored. */
+  template <int dim>
+  void
+  apply_point_update(const PointUpdate<dim>          &update,
+                     const std::vector<unsigned int> &columns,
+                     PointCore<dim>                  &state);
 
   /**
    * By which the edges of the points' GIMP domains, boxes along the axes, are scaled [-]: the

@@ -101,10 +101,10 @@ namespace kedge
                      std::vector<GeneratedPoint<dim>> &points,
                      const std::vector<std::string>   &body_names);
     void
-    add_faces(const std::uint64_t    id,
-              const unsigned int     slot,
-              const PointState<dim> &state,
-              const Patch<dim>      &patch);
+    add_faces(const std::uint64_t   id,
+              const unsigned int    slot,
+              const PointCore<dim> &state,
+              const Patch<dim>     &patch);
     /** The face that a generated point has on a side of a surface; of no area if it has none. */
     Face
     face_of(const GeneratedPoint<dim> &point,

@@ -51,7 +51,16 @@ namespace kedge
     void
     to_points(const Trial<dim> &trial);
 
-    /** Writes the motion of a point at the end of the step. */
+    bool
+    carries_acceleration() const
+    {
+      return scheme.carries_acceleration;
+    }
+
+    /** Writes the motion of a point at the end of the step, but for its acceleration. */
+    void
+    update(const unsigned int slot, PointCore<dim> &state) const;
+    /** Writes the motion of a point at the end of the step, if the scheme carries all of it. */
     void
     update(const unsigned int slot, PointState<dim> &state) const;
 
