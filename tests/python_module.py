@@ -99,6 +99,8 @@ def test_errors():
     assert issubclass(kedge.UserError, ValueError)
     with kedge.Run(bar()) as run:
         raises(kedge.UserError, ["cauchy_stres", "cauchy_stress"], lambda: run.field("cauchy_stres"))
+        raises(kedge.UserError, ["do not remember 'velocty'", "velocity"],
+               lambda: run.view("velocty"))
     raises(kedge.UserError, ["closed"], run.step)
 
 
@@ -155,6 +157,33 @@ def test_histories_are_no_copies():
     assert len(early) == 11 and np.array_equal(early, copied)
     assert np.allclose(run.history["time"], np.arange(101) / 100, atol=1e-12)
     assert np.array_equal(run.history["step"], np.arange(101))
+
+
+def test_views():
+    """The points' memory in place: the same numbers as the field, and no step meanwhile."""
+    with kedge.Run(bar()) as run:
+        run.step()
+        view, again = run.view("displacement"), run.view("displacement")
+        assert np.shares_memory(view, again) and not view.flags.writeable
+        order = np.argsort(run.view_ids)
+        assert np.array_equal(view[order], run.field("displacement")[:, :2])
+        assert np.array_equal(run.view("position")[order], run.field("position")[:, :2])
+        gradient = run.view("deformation_gradient")[order]
+        assert np.array_equal(gradient, run.field("deformation_gradient")[:, :2, :2])
+        stress = run.view("kirchhoff_stress")[order]
+        assert np.array_equal(stress, run.field("kirchhoff_stress")[:, [0, 1, 3]])
+        assert {"position", "mass", "velocity"} <= set(run.views)
+        assert "pore_pressure" not in run.views # a dry body does not store one
+        part = again[3:5, 0]
+        del again, view
+        raises(BufferError, ["view", "numpy.array"], run.step)
+        moved = np.array(part)
+        del part
+        assert run.step()
+        assert not np.array_equal(run.view("displacement")[3:5, 0], moved)
+        kept = run.view("mass")
+    # the run is closed; what is looked at stays: rho V, the bar's mass
+    assert abs(kept.sum() - DENSITY * LENGTH * 0.25) < 1e-9 * DENSITY
 
 
 def test_stops():
@@ -220,9 +249,9 @@ def test_ranks():
 
 
 def test_quiet_end():
-    """Python ends without a word while a run is open; the log is shown if asked for."""
+    """Python ends without a word while a run and a view are open; the log is shown if asked for."""
     code = ("import kedge, sys\nrun = kedge.Run(sys.argv[1], log=len(sys.argv) > 2)\n"
-            "run.step()\n")
+            "run.step()\nview = run.view('mass')\n")
     for options in ([], ["log"]):
         done = subprocess.run([sys.executable, "-c", code, OUTPUT / "bar.prm", *options],
                               check=False, capture_output=True, text=True)

@@ -57,9 +57,11 @@ namespace kedge
   ProbeWriter<dim>::ProbeWriter(const RunFolder                  &folder,
                                 const std::vector<Probe>         &probes,
                                 const std::optional<CsvPosition> &resume_at,
-                                const bool                        saturated)
+                                const bool                        saturated,
+                                const bool                        points_leave)
     : communicator(folder.communicator())
     , all(quantities<dim>(saturated))
+    , points_leave(points_leave)
   {
     check_names(probes);
     std::vector<std::string> columns = {"time"};
@@ -151,6 +153,32 @@ namespace kedge
 
 
   template <int dim>
+  void
+  ProbeWriter<dim>::divide_by_weights(std::vector<double> &total) const
+  {
+    const std::size_t n = all.size() + 1;
+    for (std::size_t probe = 0; probe < names.size(); ++probe)
+      {
+        const auto   begin  = total.begin() + static_cast<std::ptrdiff_t>(probe * n);
+        const double weight = begin[static_cast<std::ptrdiff_t>(all.size())];
+        if (std::abs(weight - 1.) < 1e-9)
+          continue;
+        AssertThrow(points_leave,
+                    dealii::ExcMessage("The probe '" + names[probe] +
+                                       "' lost material points: the weights found sum to " +
+                                       std::to_string(weight) + " instead of 1."));
+        if (weight > 0.)
+          std::transform(begin, begin + static_cast<std::ptrdiff_t>(n), begin, [&](const double v) {
+            return v / weight;
+          });
+        else if (!last.empty())
+          std::copy_n(last.begin() + static_cast<std::ptrdiff_t>(probe * n), n, begin);
+      }
+  }
+
+
+
+  template <int dim>
   std::string
   ProbeWriter<dim>::end_row(const double time)
   {
@@ -159,13 +187,8 @@ namespace kedge
     std::vector<double> total(sums.size());
     dealii::Utilities::MPI::sum(sums, communicator, total);
 
-    const std::size_t n_columns = total.size() / names.size() - 1;
-    for (std::size_t probe = 0; probe < names.size(); ++probe)
-      AssertThrow(std::abs(total[probe * (n_columns + 1) + n_columns] - 1.) < 1e-9,
-                  dealii::ExcMessage("The probe '" + names[probe] +
-                                     "' lost material points: the weights found sum to " +
-                                     std::to_string(total[probe * (n_columns + 1) + n_columns]) +
-                                     " instead of 1."));
+    const std::size_t n_columns = all.size();
+    divide_by_weights(total);
     for (std::size_t i = 0; i < total.size(); ++i)
       if (!std::isfinite(total[i]))
         {
@@ -175,6 +198,7 @@ namespace kedge
               return quantity.field->component_name(component) + " at the probe '" +
                      names[i / (n_columns + 1)] + "' is " + exact_text(total[i]);
         }
+    last = total;
     if (!file)
       return "";
     *file << time;

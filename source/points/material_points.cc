@@ -59,6 +59,7 @@ namespace kedge
     handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation(),
                                                                         grid.mapping(),
                                                                         layout.n_values());
+    handler->get_property_pool().reserve(records.size());
     for (const auto &record : records)
       insert(grid, record);
     handler->update_cached_numbers();
@@ -98,6 +99,39 @@ namespace kedge
                  const PointState<dim>    &state) {
       result.push_back({id, location, state});
     });
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::optional<PointMemory<dim>>
+  MaterialPoints<dim>::memory() const
+  {
+    PointMemory<dim> result;
+    result.layout = layout;
+    if (n_local() == 0)
+      return result;
+    const std::less<const double *> before;
+    for (const auto &particle : *handler)
+      {
+        const double *state = particle.get_properties().data();
+        if (result.states == nullptr || before(state, result.states))
+          {
+            result.states    = state;
+            result.locations = &particle.get_location();
+          }
+      }
+    result.ids.resize(n_local());
+    for (const auto &particle : *handler)
+      {
+        const auto row =
+          static_cast<std::size_t>(particle.get_properties().data() - result.states) /
+          layout.n_values();
+        if (row >= result.ids.size())
+          return {};
+        result.ids[row] = particle.get_id();
+      }
     return result;
   }
 

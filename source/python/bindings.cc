@@ -68,8 +68,8 @@ namespace kedge
 
 
     /**
-     * A run lasts as long as its object in Python, but for the end of Python, before which MPI
-     * must end, too.
+     * What a run and the arrays that look at its memory hold together: it lasts as long as
+     * one of them, but for the end of Python, before which MPI must end, too.
      */
     using SharedSession = std::shared_ptr<std::unique_ptr<Session>>;
 
@@ -101,6 +101,7 @@ namespace kedge
                 const bool           resume,
                 const bool           log)
         : log(log)
+        , looked_at(std::make_shared<int>(0))
       {
         start_mpi();
         const LogTo log_to(log);
@@ -116,7 +117,7 @@ namespace kedge
       std::optional<std::pair<int, std::string>>
       advance()
       {
-        Session    &open = get();
+        Session    &open = changing();
         const LogTo log_to(log);
         const auto  end = open.step();
         if (!end)
@@ -138,6 +139,30 @@ namespace kedge
         std::vector<std::size_t> shape  = {count(values)};
         shape.insert(shape.end(), values.shape.begin(), values.shape.end());
         return py::array_t<double>(shape, values.values.data());
+      }
+
+      /** What the points remember, in place; the array keeps the session and counts as a look. */
+      py::array
+      view(const std::string &name) const
+      {
+        const StoredValues       stored  = get().stored(name);
+        std::vector<std::size_t> shape   = {stored.n_points};
+        std::vector<std::size_t> strides = {stored.stride * sizeof(double)};
+        for (std::size_t d = 0; d < stored.shape.size(); ++d)
+          {
+            std::size_t size = sizeof(double);
+            for (std::size_t inner = d + 1; inner < stored.shape.size(); ++inner)
+              size *= stored.shape[inner];
+            shape.push_back(stored.shape[d]);
+            strides.push_back(size);
+          }
+        using Look = std::pair<SharedSession, std::shared_ptr<int>>;
+        const py::capsule look(new Look(session, looked_at), [](void *pointer) {
+          delete static_cast<Look *>(pointer);
+        });
+        py::array         result(py::dtype::of<double>(), shape, strides, stored.first, look);
+        result.attr("flags").attr("writeable") = false;
+        return result;
       }
 
       Session &
@@ -165,8 +190,19 @@ namespace kedge
         return values.values.size() / per_point;
       }
 
-      const bool    log;
-      SharedSession session;
+      /** The session, which a step will change. */
+      Session &
+      changing() const
+      {
+        if (looked_at.use_count() > 1)
+          throw py::buffer_error("A view of the points is still in use, and a step would change "
+                                 "what it shows: delete it, or copy it with numpy.array().");
+        return get();
+      }
+
+      const bool           log;
+      SharedSession        session;
+      std::shared_ptr<int> looked_at; ///< held by each view
     };
 
 
@@ -240,6 +276,7 @@ namespace kedge
         .def("write_checkpoint", &PythonRun::write_checkpoint)
         .def("close", &PythonRun::close)
         .def("field", &PythonRun::field)
+        .def("view", &PythonRun::view)
         .def("dimension",
              [](const PythonRun &run) {
                return run.get().dimension();
@@ -256,8 +293,12 @@ namespace kedge
              [](const PythonRun &run) {
                return run.get().field_names();
              })
-        .def("ids", [](const PythonRun &run) {
-          const auto ids = run.get().ids();
+        .def("stored_names",
+             [](const PythonRun &run) {
+               return run.get().stored_names();
+             })
+        .def("ids", [](const PythonRun &run, const bool as_stored) {
+          const auto ids = run.get().ids(as_stored);
           return py::array_t<std::uint64_t>(ids.size(), ids.data());
         });
     }

@@ -118,7 +118,13 @@ namespace kedge
                   allow.vector(),
                   "Corner with the lowest x, y, z [m]."},
                  {"Extent", required, allow.vector(Range::positive()), "Lengths of the edges [m]."},
-                 {"Cells", required, allow.counts(false), "Number of cells per direction [-]."}}};
+                 {"Cells", required, allow.counts(false), "Number of cells per direction [-]."},
+                 {"Open sides",
+                  "",
+                  allow.sides().or_empty(),
+                  "Sides through which material leaves the grid: its points are taken out of the "
+                  "run, and history.csv shows what they take with them. At other sides a point "
+                  "that would leave ends the run."}}};
       }
 
       SectionDeclaration

@@ -357,6 +357,11 @@ namespace kedge
         set_elements(reader, scene);
       });
       errors.attempt([&]() {
+        if (!scene.open_sides.empty() && !scene.contacts.empty())
+          throw SectionReader(reader, {"Grid"})
+            .error("Open sides", "Bodies that may move apart (Contact) must stay in the grid.");
+      });
+      errors.attempt([&]() {
         check_initial_stress(reader, scene);
       });
       if (!scene.pore_fluid)
@@ -418,6 +423,8 @@ namespace kedge
     const bool has_grid = errors.attempt([&]() {
       scene.grid = read_grid<dim>(reader);
     });
+    for (const std::string &side : SectionReader(reader, {"Grid"}).list("Open sides"))
+      scene.open_sides.push_back(parse_side<dim>(side));
     errors.attempt([&]() {
       scene.node_conditions = read_node_conditions<dim>(reader);
     });

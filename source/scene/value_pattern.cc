@@ -241,6 +241,19 @@ namespace kedge
 
   template <int dim>
   ValuePattern
+  ValuePatterns<dim>::sides() const
+  {
+    return ValuePattern("a list, separated by commas, of " + side().description(),
+                        [](const auto &text) {
+                          for (const std::string &part : split_list(text))
+                            parse_side<dim>(part);
+                        });
+  }
+
+
+
+  template <int dim>
+  ValuePattern
   ValuePatterns<dim>::numbers() const
   {
     return ValuePattern("numbers separated by commas", [c = constants](const auto &text) {

@@ -4,6 +4,7 @@
 #include <kedge/contact/contact_velocity_term.h>
 #include <kedge/contact/nodal_law_term.h>
 #include <kedge/contact/wall_term.h>
+#include <kedge/porous/outflow_term.h>
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
 #include <kedge/solid/body_condition_term.h>
@@ -38,7 +39,9 @@ namespace kedge
     Field<dim>       &here  = *fields[field];
     const Patch<dim> &patch = here.patch;
 
-    auto &motion = add_term(std::make_unique<MotionTerm<dim>>(field, patch, here.transfer.get()));
+    const OpenSides<dim> open_sides(scene.open_sides);
+    auto                &motion =
+      add_term(std::make_unique<MotionTerm<dim>>(field, patch, here.transfer.get(), open_sides));
     add_term(std::make_unique<HistoryTerm<dim>>(field, patch, bodies.materials, bodies.columns));
     if (!scene.pore_fluid)
       {
@@ -95,6 +98,8 @@ namespace kedge
       }
     if (scene.pore_fluid)
       choose_porous_terms(field, loads, ghosts, program);
+    if (open_sides.any())
+      add_term(std::make_unique<OutflowTerm<dim>>(bodies.soils));
   }
 
 

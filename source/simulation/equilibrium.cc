@@ -33,6 +33,7 @@ namespace kedge
       for (auto &condition : stage.body_conditions)
         for (auto &line : condition.lines)
           line.motion.kind = ConditionKind::fixed;
+      stage.open_sides.clear(); // nothing may be lost before the books are opened
       stage.time.scheme       = SchemeKind::quasi_static;
       stage.equilibrium.steps = 0;
       return stage;

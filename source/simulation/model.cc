@@ -18,6 +18,7 @@ namespace kedge
     , scheme(scene.time)
     , bodies(read_bodies(scene))
     , points(scene.grid,
+             OpenSides<dim>(scene.open_sides),
              layout_of_points<dim>(bodies,
                                    scene.pore_fluid.has_value(),
                                    scheme.carries_acceleration),
@@ -155,6 +156,7 @@ namespace kedge
     records.reserve(made.size());
     for (const auto &point : made)
       records.push_back(point.record);
+    std::vector<GeneratedPoint<dim>>().swap(made); // as large as all that follows
     points.begin(std::move(records));
   }
 

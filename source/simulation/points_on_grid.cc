@@ -4,9 +4,11 @@ namespace kedge
 {
   template <int dim>
   PointsOnGrid<dim>::PointsOnGrid(const GridParameters<dim> &parameters,
+                                  const OpenSides<dim>      &open_sides,
                                   const PointLayout<dim>    &layout,
                                   const MPI_Comm             communicator)
     : communicator(communicator)
+    , open_sides(open_sides)
     , background(parameters, communicator)
     , cloud(layout)
   {}
@@ -93,9 +95,39 @@ namespace kedge
 
 
   template <int dim>
-  void
+  bool
+  PointsOnGrid<dim>::take_out(std::vector<PointRecord<dim>> &gone)
+  {
+    bool any = false;
+    cloud.for_each([&](const unsigned int,
+                       const std::uint64_t,
+                       const dealii::Point<dim> &x,
+                       const PointState<dim> &) {
+      any = any || open_sides.let_out(background.lattice(), x);
+    });
+    if (!dealii::Utilities::MPI::logical_or(any, communicator))
+      return false;
+    std::vector<PointRecord<dim>> staying;
+    for (auto &record : cloud.records())
+      (open_sides.let_out(background.lattice(), record.location) ? gone : staying)
+        .push_back(record);
+    // sums over them must not depend on how the cloud is stored
+    std::sort(gone.begin(), gone.end(), [](const auto &a, const auto &b) {
+      return a.id < b.id;
+    });
+    replace(staying);
+    return true;
+  }
+
+
+
+  template <int dim>
+  std::vector<PointRecord<dim>>
   PointsOnGrid<dim>::follow()
   {
+    std::vector<PointRecord<dim>> gone;
+    if (open_sides.any() && take_out(gone))
+      return gone;
     bool close = false, outside = false;
     cloud.for_each_core([&](const unsigned int,
                             const std::uint64_t,
@@ -108,13 +140,14 @@ namespace kedge
     if (dealii::Utilities::MPI::logical_or(close || outside, communicator))
       {
         replace(cloud.records());
-        return;
+        return gone;
       }
     const std::uint64_t missing = cloud.relocate(background);
     AssertThrow(missing == 0,
                 dealii::ExcMessage(std::to_string(missing) +
                                    " material points were lost while they were sorted into "
                                    "the cells of the background grid."));
+    return gone;
   }
 
   template class PointsOnGrid<2>;

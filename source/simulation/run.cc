@@ -227,6 +227,7 @@ namespace kedge
     row.linear_iterations = report.newton.linear_iterations;
     row.rejected_attempts = static_cast<unsigned int>(counts.rejected_pending);
     fill_row();
+    log.outflow(model.ledger.value_or("outflow_points", 0.), clock.time());
     counts.rejected_pending = 0;
     counts.points_times_steps += static_cast<double>(row.n_points) * report.newton.iterations;
 

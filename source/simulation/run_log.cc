@@ -45,10 +45,26 @@ namespace kedge
 
 
   void
+  RunLog::outflow(const double n_points, const double time)
+  {
+    if (n_points > 0. && n_gone == 0.)
+      folder.log() << "  material leaves the grid through its open sides, first at t = " << time
+                   << " s" << std::endl;
+    n_gone = n_points;
+  }
+
+
+
+  void
   RunLog::finish(const HistoryRow &row)
   {
     rejections.sum_up();
     progress.finish(row);
+    if (n_gone > 0.)
+      folder.log() << "  " << static_cast<std::uint64_t>(n_gone)
+                   << " material points have left the grid; what they took with them stands in "
+                      "the columns outflow_... of history.csv"
+                   << std::endl;
   }
 
 

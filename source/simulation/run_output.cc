@@ -213,6 +213,8 @@ namespace kedge
                                           model.points.covered_weights().end());
     for (const auto &term : model.terms)
       term->save(data.arrays);
+    if (!model.scene.open_sides.empty())
+      data.arrays["last_probes"] = probes->last_row();
     data.points = model.points.points().records();
     checkpoints.write(data);
     last_checkpoint_wall = wall_time();
@@ -243,7 +245,8 @@ namespace kedge
     probes  = std::make_unique<ProbeWriter<dim>>(folder,
                                                 find_probes(),
                                                 position("probes"),
-                                                scene.pore_fluid.has_value());
+                                                scene.pore_fluid.has_value(),
+                                                !scene.open_sides.empty());
     points_output = std::make_unique<PointsOutput<dim>>(folder, scene.output, n_written("points"));
     if (scene.output.grid)
       grid_output = std::make_unique<GridOutput<dim>>(folder, n_written("grid"));
@@ -298,6 +301,8 @@ namespace kedge
     if (data.counters.at("points_written") > 0)
       last_points_step = data.counters.at("last_points_step");
     open_output(data.counters);
+    if (const auto last = data.arrays.find("last_probes"); last != data.arrays.end())
+      probes->set_last_row(last->second);
     step.book_state();
     model.ledger.restore(books);
     fill_row();

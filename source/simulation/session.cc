@@ -1,4 +1,6 @@
+#include <kedge/base/nearest_name.h>
 #include <kedge/io/point_fields.h>
+#include <kedge/materials/material.h>
 #include <kedge/scene/idle_settings.h>
 #include <kedge/scene/read_scene.h>
 #include <kedge/simulation/drive_point.h>
@@ -12,6 +14,49 @@ namespace kedge
 {
   namespace
   {
+    /** A member of PointState that can be looked at where it lies. */
+    struct Member
+    {
+      std::string              name;
+      std::size_t              offset; ///< in bytes
+      std::vector<std::size_t> shape;
+    };
+
+    template <int dim>
+    std::vector<Member>
+    members()
+    {
+      using C                             = PointCore<dim>;
+      using E                             = PointExtras<dim>;
+      constexpr std::size_t          past = sizeof(C); // where the extras begin
+      const std::vector<std::size_t> number, vector = {dim}, tensor = {dim, dim},
+                                             symmetric = {dim * (dim + 1) / 2};
+
+      std::vector<Member> result = {
+        {"body", offsetof(C, body), number},
+        {"mass", offsetof(C, mass), number},
+        {"reference_volume", offsetof(C, reference_volume), number},
+        {"reference_position", offsetof(C, reference_position), vector},
+        {"displacement", offsetof(C, displacement), vector},
+        {"velocity", offsetof(C, velocity), vector},
+        {"half_lengths", offsetof(C, half_lengths), vector},
+        {"deformation_gradient", offsetof(C, deformation_gradient), tensor},
+        {"kirchhoff_stress", offsetof(C, kirchhoff_stress), symmetric},
+        {"out_of_plane_kirchhoff_stress", offsetof(C, out_of_plane_kirchhoff_stress), number},
+        {"strain_energy", offsetof(C, strain_energy), number},
+        {"acceleration", past + offsetof(E, acceleration), vector},
+        {"hardening_energy", past + offsetof(E, hardening_energy), number},
+        {"plastic_dissipation", past + offsetof(E, plastic_dissipation), number},
+        {"pore_pressure", past + offsetof(E, pore_pressure), number},
+        {"porosity", past + offsetof(E, porosity), number},
+        {"darcy_velocity", past + offsetof(E, darcy_velocity), vector}};
+      const auto &columns = memory_columns();
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        result.push_back(
+          {columns[c].name, past + offsetof(E, memory) + c * sizeof(double), number});
+      return result;
+    }
+
     /** The points of this rank by their ids. */
     template <int dim>
     std::vector<PointRecord<dim>>
@@ -23,6 +68,19 @@ namespace kedge
       });
       return result;
     }
+
+    template <int dim>
+    PointMemory<dim>
+    memory_of(const MaterialPoints<dim> &points)
+    {
+      auto memory = points.memory();
+      if (!memory)
+        throw UserError("What this process's points remember cannot be looked at in place, for "
+                        "points have gone to other processes; take a copy of the field.");
+      return std::move(*memory);
+    }
+
+
 
     template <int dim>
     class SceneSession : public Session
@@ -114,12 +172,48 @@ namespace kedge
       }
 
       std::vector<std::uint64_t>
-      ids() const override
+      ids(const bool as_stored) const override
       {
+        const MaterialPoints<dim> &points = the_run.current().points.points();
+        if (as_stored)
+          return memory_of(points).ids;
         std::vector<std::uint64_t> result;
-        for (const auto &record : in_order_of_ids(the_run.current().points.points()))
+        for (const auto &record : in_order_of_ids(points))
           result.push_back(record.id);
         return result;
+      }
+
+      std::vector<std::string>
+      stored_names() const override
+      {
+        const PointMemory<dim>   memory = memory_of(the_run.current().points.points());
+        std::vector<std::string> names  = {"position"};
+        for (const Member &member : members<dim>())
+          if (memory.layout.place_of(member.offset))
+            names.push_back(member.name);
+        return names;
+      }
+
+      StoredValues
+      stored(const std::string &name) const override
+      {
+        const PointMemory<dim> memory = memory_of(the_run.current().points.points());
+        const std::size_t      n      = memory.ids.size();
+        if (name == "position")
+          return {n > 0 ? &(*memory.locations)[0] : nullptr, n, dim, {dim}};
+        for (const Member &member : members<dim>())
+          if (const auto place = memory.layout.place_of(member.offset);
+              place && member.name == name)
+            return {n > 0 ? memory.states + *place : nullptr,
+                    n,
+                    memory.layout.n_values(),
+                    member.shape};
+        const auto  names = stored_names();
+        std::string list;
+        for (const std::string &valid : names)
+          list += (list.empty() ? "" : ", ") + valid;
+        throw UserError("The points of this scene do not remember '" + name + "'." +
+                        did_you_mean(name, names) + " They remember: " + list + ".");
       }
 
     private:

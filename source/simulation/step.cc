@@ -6,8 +6,9 @@
 namespace kedge
 {
   template <int dim>
-  Step<dim>::Step(Model<dim> &model)
+  Step<dim>::Step(Model<dim> &model, const bool solves)
     : model(model)
+    , solves(solves)
     , step_equations(model.patches(),
                      model.unknowns,
                      model.terms,
@@ -29,7 +30,7 @@ namespace kedge
     for (auto &term : model.terms)
       term->activate(model.points.points());
     for (unsigned int f = 0; f < model.fields.size(); ++f)
-      if (auto &transfer = model.fields[f]->transfer)
+      if (auto &transfer = model.fields[f]->transfer; transfer && solves)
         {
           std::function<void(NodeMatrix<dim> &)> add;
           if (!model.fields[f]->mapping_terms.empty())
@@ -57,7 +58,7 @@ namespace kedge
                                         for (auto &term : model.terms)
                                           term->reach(f, reached);
                                       });
-        radius.push_back(model.fields[f]->tangent_radius);
+        radius.push_back(solves ? model.fields[f]->tangent_radius : 0);
       }
     step_equations.reinit(radius);
   }
@@ -84,6 +85,7 @@ namespace kedge
   StepReport
   Step<dim>::attempt(const StepTimes &times, const std::function<bool()> &stop)
   {
+    Assert(solves, dealii::ExcMessage("This step has no matrices."));
     activate();
     {
       const Stopwatch           stopwatch(phases["transfer"]);
@@ -193,7 +195,9 @@ namespace kedge
         term->book(trial, step_equations.last_residual(), model.ledger);
       for (auto &term : model.terms)
         term->commit(trial, model.points.points());
-      model.points.follow();
+      const std::vector<PointRecord<dim>> gone = model.points.follow();
+      for (const auto &term : model.terms)
+        term->book_outflow(gone, model.ledger);
     }
     activated = false;
     book_present_state();

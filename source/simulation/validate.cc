@@ -13,7 +13,7 @@ namespace kedge
   {
     Model<dim> model(scene, communicator);
     model.create_points();
-    Step<dim> first(model);
+    Step<dim> first(model, false);
     first.book_state();
     const double step = scene.time.step_kind == StepSizeKind::fixed
                           ? scene.time.step

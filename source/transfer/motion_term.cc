@@ -6,12 +6,14 @@
 namespace kedge
 {
   template <int dim>
-  MotionTerm<dim>::MotionTerm(const unsigned int   field,
-                              const Patch<dim>    &patch,
-                              MotionTransfer<dim> *transfer)
+  MotionTerm<dim>::MotionTerm(const unsigned int    field,
+                              const Patch<dim>     &patch,
+                              MotionTransfer<dim>  *transfer,
+                              const OpenSides<dim> &open_sides)
     : field(field)
     , patch(patch)
     , transfer(transfer)
+    , open_sides(open_sides)
   {}
 
 
@@ -48,18 +50,43 @@ namespace kedge
   MotionTerm<dim>::finish(const Trial<dim> &trial)
   {
     interpolate_to_points(patch, trial.displacement(field), point_displacements);
+    Answer failure;
     for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
       {
         const auto x = patch.points.location[slot] + point_displacements[slot];
-        if (patch.grid().lattice().contains(x))
+        if (patch.grid().lattice().contains(x) ||
+            open_sides.let_out(patch.grid().lattice(), dealii::Point<dim>(x)))
           continue;
         std::ostringstream cause;
         cause << "material point " << patch.points.id[slot] << " leaves the background grid at ("
               << x << "), displaced by (" << point_displacements[slot]
-              << ") in this step; enlarge the grid (Grid/Origin, Grid/Extent)";
-        return Answer::failure(cause.str());
+              << ") in this step; enlarge the grid (Grid/Origin, Grid/Extent) or let material "
+                 "leave (Grid/Open sides)";
+        failure = Answer::failure(cause.str());
+        break;
       }
-    return {};
+    if (!open_sides.any())
+      return failure;
+    const Answer some_stay = check_that_some_stay();
+    return failure.ok ? some_stay : failure;
+  }
+
+
+
+  template <int dim>
+  Answer
+  MotionTerm<dim>::check_that_some_stay() const
+  {
+    unsigned int n_staying = 0;
+    for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
+      if (!open_sides.let_out(patch.grid().lattice(),
+                              dealii::Point<dim>(patch.points.location[slot] +
+                                                 point_displacements[slot])))
+        ++n_staying;
+    if (dealii::Utilities::MPI::max(n_staying, patch.grid().communicator()) > 0)
+      return {};
+    return Answer::failure("the last material points leave the grid through its open sides; "
+                           "nothing is left to compute (Time/End may be earlier)");
   }
 
 

@@ -37,7 +37,7 @@ namespace kedge
    *   declare                     its unknowns, its columns of the books
    *   each configuration:         reach, activate
    *   each attempt at a step:     start; add_residual, add_tangent, prepare_solver; refresh; finish
-   *   each accepted step:         book, commit
+   *   each accepted step:         book, commit; book_outflow of points that have left the grid
    *   each state that is shown:   book_state
    *
    *   each checkpoint:            save; restore in the run that resumes it
@@ -148,6 +148,14 @@ namespace kedge
     /** Writes the step into the points. */
     virtual void
     commit(const Trial<dim> &, MaterialPoints<dim> &)
+    {}
+
+    /**
+     * Books what points have taken with them that the step has brought out of the grid
+     * through open sides: as they are after the step, this rank's.
+     */
+    virtual void
+    book_outflow(const std::vector<PointRecord<dim>> &, Ledger &) const
     {}
 
     /** Books the committed state: this rank's shares. */

@@ -50,11 +50,15 @@ namespace kedge
      * Weights are divided by their sum. Throws UserError for a probe without
      * points, a name used twice or one that a table's header cannot hold, and
      * as CsvFile does. Collective.
+     *
+     * @param points_leave a probe is then the mean over those of its points that are there
+     * still, and stays as it was last when all have gone
      */
     ProbeWriter(const RunFolder                  &folder,
                 const std::vector<Probe>         &probes,
-                const std::optional<CsvPosition> &resume_at = {},
-                const bool                        saturated = false);
+                const std::optional<CsvPosition> &resume_at    = {},
+                const bool                        saturated    = false,
+                const bool                        points_leave = false);
 
     bool
     empty() const;
@@ -71,7 +75,8 @@ namespace kedge
 
     /**
      * Sums over the ranks and writes the row, or says on all ranks which number of it is
-     * not finite and writes nothing. Collective. Throws if a tracked point is on no rank.
+     * not finite and writes nothing. Collective. Throws if a tracked point is on no rank,
+     * unless points may leave.
      */
     std::string
     end_row(const double time);
@@ -79,6 +84,19 @@ namespace kedge
     /** All three at once. Collective; returns at once if there are no probes. */
     void
     write(const double time, const std::vector<PointRecord<dim>> &local_points);
+
+    /** The numbers of the last row, for a run that is resumed. */
+    const std::vector<double> &
+    last_row() const
+    {
+      return last;
+    }
+
+    void
+    set_last_row(const std::vector<double> &row)
+    {
+      last = row;
+    }
 
     /** Length in bytes of the file, all of it on the disk; 0 without probes and on ranks > 0. */
     CsvPosition
@@ -96,12 +114,18 @@ namespace kedge
       double        weight;
     };
 
+    /** Makes means of the sums over all ranks. */
+    void
+    divide_by_weights(std::vector<double> &total) const;
+
     MPI_Comm                              communicator;
     const std::vector<PointQuantity<dim>> all; ///< quantities of a probe
     std::vector<std::string>              names;
     std::vector<Tracked>                  tracked; ///< sorted by id
     std::vector<bool>                     mask;    ///< by the low bits of the id
+    bool                                  points_leave;
     std::vector<double>      sums; ///< per probe: the quantities, then the weight found
+    std::vector<double>      last; ///< of the last row, likewise
     std::unique_ptr<CsvFile> file;
   };
 } // namespace kedge

@@ -9,6 +9,19 @@
 namespace kedge
 {
   /**
+   * Where the numbers of the local points lie in memory: a row of n_values doubles (as
+   * layout says) and a place each, until points move from cell to cell or rank to rank.
+   */
+  template <int dim>
+  struct PointMemory
+  {
+    std::vector<std::uint64_t> ids; ///< of the points, in the order of the rows
+    const dealii::Point<dim>  *locations = nullptr;
+    const double              *states    = nullptr;
+    PointLayout<dim>           layout;
+  };
+
+  /**
    * The cloud of material points with their committed history, stored cell by
    * cell in a deal.II ParticleHandler. Points are visited in the handler's
    * order; the position in that order is the point's local number until the
@@ -44,6 +57,10 @@ namespace kedge
     /** The local points in their order. */
     std::vector<PointRecord<dim>>
     records() const;
+
+    /** Nothing if there are gaps between the rows, as points that have left leave them. */
+    std::optional<PointMemory<dim>>
+    memory() const;
 
     unsigned int
     n_local() const

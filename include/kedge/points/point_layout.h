@@ -4,6 +4,7 @@
 #include <kedge/points/point_state.h>
 
 #include <cstring>
+#include <optional>
 #include <vector>
 
 namespace kedge
@@ -61,6 +62,21 @@ namespace kedge
       for (const Range &range : ranges)
         n += range.count;
       return n;
+    }
+
+    /** The place among the stored values of a member of PointState, by its offset in bytes. */
+    std::optional<unsigned int>
+    place_of(const std::size_t offset) const
+    {
+      const unsigned int value = offset / sizeof(double);
+      unsigned int       place = 0;
+      for (const Range &range : ranges)
+        {
+          if (value >= range.begin && value < range.begin + range.count)
+            return place + value - range.begin;
+          place += range.count;
+        }
+      return {};
     }
 
     void

@@ -28,6 +28,7 @@ namespace kedge
     std::string                               title;
     std::map<std::string, double>             constants; ///< of all expressions
     GridParameters<dim>                       grid;
+    std::vector<unsigned int> open_sides; ///< of the grid, 2*direction + (0: low, 1: high)
     std::vector<NodeConditionParameters<dim>> node_conditions;
     std::vector<MaterialParameters>           materials;
     std::vector<BodyParameters<dim>>          bodies;

@@ -98,6 +98,9 @@ namespace kedge
     side_or_all() const;
 
     ValuePattern
+    sides() const;
+
+    ValuePattern
     numbers() const;
 
     ValuePattern

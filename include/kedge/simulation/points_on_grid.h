@@ -1,6 +1,7 @@
 #ifndef kedge_simulation_points_on_grid_h
 #define kedge_simulation_points_on_grid_h
 
+#include <kedge/grid/open_sides.h>
 #include <kedge/points/material_points.h>
 
 namespace kedge
@@ -10,8 +11,12 @@ namespace kedge
   class PointsOnGrid
   {
   public:
-    /** @param layout what the points store */
+    /**
+     * @param layout     what the points store
+     * @param open_sides of the grid, through which points leave it for good
+     */
     PointsOnGrid(const GridParameters<dim> &parameters,
+                 const OpenSides<dim>      &open_sides,
                  const PointLayout<dim>    &layout,
                  const MPI_Comm             communicator);
 
@@ -32,8 +37,13 @@ namespace kedge
             const LatticeWindow<dim>            &covered,
             const std::vector<unsigned int>     &weights);
 
-    /** After points have moved: sorts them into cells and ranks, takes a new window if needed. */
-    void
+    /**
+     * After points have moved: sorts them into cells and ranks, takes a new window if needed.
+     *
+     * @return those of this rank that have left through open sides, in the order of their
+     * ids; they are no more in the cloud
+     */
+    std::vector<PointRecord<dim>>
     follow();
 
     const BackgroundGrid<dim> &
@@ -71,7 +81,12 @@ namespace kedge
     void
     cover(const std::vector<PointRecord<dim>> &records);
 
+    /** Takes the points out that have left; true if there was any, on whichever rank. */
+    bool
+    take_out(std::vector<PointRecord<dim>> &gone);
+
     const MPI_Comm            communicator;
+    const OpenSides<dim>      open_sides;
     BackgroundGrid<dim>       background;
     MaterialPoints<dim>       cloud;
     LatticeWindow<dim>        covered;

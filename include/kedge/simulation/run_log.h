@@ -28,6 +28,10 @@ namespace kedge
     void
     stopped(const double size, const double time, const std::string &cause, const bool at_floor);
 
+    /** How many points have left the grid in the run so far; says so of the first ones. */
+    void
+    outflow(const double n_points, const double time);
+
     /** The last line of progress. */
     void
     finish(const HistoryRow &row);
@@ -46,7 +50,8 @@ namespace kedge
     Rejections       rejections;
     Outlook          outlook;
     SceneLoads       loads;
-    double           end; ///< of the run [s]
+    double           end;         ///< of the run [s]
+    double           n_gone = 0.; ///< points that have left the grid
   };
 } // namespace kedge
 

@@ -20,6 +20,15 @@ namespace kedge
     std::vector<std::size_t> shape; ///< of one point; empty: a number
   };
 
+  /** What the points remember, where it lies: nothing is copied or owned. */
+  struct StoredValues
+  {
+    const double            *first    = nullptr;
+    std::size_t              n_points = 0;
+    std::size_t              stride   = 0; ///< numbers from one point to the next
+    std::vector<std::size_t> shape;        ///< of one point; empty: a number
+  };
+
   /**
    * A run of a scene of either dimension, step by step, with its books and points as plain
    * numbers: what other languages are bound to. Points are those of this rank. Calls of
@@ -70,9 +79,23 @@ namespace kedge
     virtual FieldValues
     field(const std::string &name) const = 0;
 
-    /** Ids of the points in their order. */
+    /** Ids of the points in their order: that of fields, or that in which they are stored. */
     virtual std::vector<std::uint64_t>
-    ids() const = 0;
+    ids(const bool as_stored) const = 0;
+
+    /** Names of what this scene's points remember. */
+    virtual std::vector<std::string>
+    stored_names() const = 0;
+
+    /**
+     * Where that lies until the next step. Tensors are of the dimension; symmetric ones hold
+     * xx, yy, xy or xx, yy, zz, xy, xz, yz.
+     *
+     * @throws UserError with the nearest name, or if the memory has gaps, as it may on
+     * several ranks
+     */
+    virtual StoredValues
+    stored(const std::string &name) const = 0;
   };
 
   /** What `kedge --validate` prints of a scene or a path, on rank 0 (collective). */

@@ -29,8 +29,12 @@ namespace kedge
   class Step
   {
   public:
-    /** The model must last as long as this. */
-    explicit Step(Model<dim> &model);
+    /**
+     * @param model  must last as long as this
+     * @param solves false: no step is ever attempted, only looked at what one would find;
+     * there are no matrices then, which would take most of the memory
+     */
+    explicit Step(Model<dim> &model, const bool solves = true);
 
     /** Points, nodes, unknowns of the present configuration, if they are not yet known
      * (collective). */
@@ -98,6 +102,7 @@ namespace kedge
     book_present_state();
 
     Model<dim>                      &model;
+    const bool                       solves;
     StepEquations<dim>               step_equations;
     Trial<dim>                       trial;
     const Ledger::Index              n_dofs;

@@ -2,6 +2,7 @@
 #define kedge_transfer_motion_term_h
 
 #include <kedge/equations/term.h>
+#include <kedge/grid/open_sides.h>
 #include <kedge/transfer/motion_transfer.h>
 
 namespace kedge
@@ -9,7 +10,7 @@ namespace kedge
   /**
    * The motion of a field's points: where a step takes them and how fast they are then.
    * It has no residual. A step that takes a point out of the background grid is
-   * refused. Books kinetic energy, momenta, mass and counts; if the scene has several
+   * refused, but for open sides of the grid. Books kinetic energy, momenta, mass and counts; if the scene has several
    * fields, energy and momenta of each field too.
    */
   template <int dim>
@@ -17,7 +18,10 @@ namespace kedge
   {
   public:
     /** @param transfer of the field's velocities; nullptr in quasi-static runs */
-    MotionTerm(const unsigned int field, const Patch<dim> &patch, MotionTransfer<dim> *transfer);
+    MotionTerm(const unsigned int    field,
+               const Patch<dim>     &patch,
+               MotionTransfer<dim>  *transfer,
+               const OpenSides<dim> &open_sides = OpenSides<dim>());
 
     std::string
     name() const override
@@ -45,6 +49,10 @@ namespace kedge
     }
 
   private:
+    /** Whether points would stay in the grid; collective. */
+    Answer
+    check_that_some_stay() const;
+
     /** Momenta have their components in x, y, z; in 2D the angular one z alone. */
     struct Columns
     {
@@ -55,6 +63,7 @@ namespace kedge
     const unsigned int                  field;
     const Patch<dim>                   &patch;
     MotionTransfer<dim>                *transfer;
+    const OpenSides<dim>                open_sides;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
     Columns                             columns{};
   };

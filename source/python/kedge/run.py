@@ -101,7 +101,7 @@ class Run:
         the end was reached and its summary, checks and last picture are written.
 
         Raises NumericalStop if the run cannot go on, KeyboardInterrupt after a signal, with
-        a checkpoint.
+        a checkpoint; BufferError while a view() is in use.
         """
         if self._ended:
             return False
@@ -171,7 +171,24 @@ class Run:
     @property
     def ids(self):
         """Ids of the points in the rows of field()."""
-        return self._core.ids()
+        return self._core.ids(False)
+
+    @property
+    def views(self):
+        """Names for view()."""
+        return self._core.stored_names()
+
+    def view(self, name):
+        """What the points remember, in place: no copy, read-only, in the order of view_ids.
+        Vectors and tensors have the scene's dimension; symmetric ones xx, yy, xy or xx, yy,
+        zz, xy, xz, yz. While such an array, or a part of it, is alive the run makes no step
+        (BufferError): del it, or numpy.array() it."""
+        return self._core.view(name)
+
+    @property
+    def view_ids(self):
+        """Ids of the points in the rows of view(); a copy."""
+        return self._core.ids(True)
 
     def checkpoint(self):
         """Keeps the present state in the output folder, for Run(..., resume=True)."""

@@ -1,0 +1,64 @@
+#include <kedge/porous/outflow_term.h>
+
+namespace kedge
+{
+  template <int dim>
+  OutflowTerm<dim>::OutflowTerm(const std::vector<Soil> &soils)
+    : soils(soils)
+  {}
+
+
+
+  template <int dim>
+  void
+  OutflowTerm<dim>::declare_books(Ledger &ledger)
+  {
+    using Section = Ledger::Section;
+    using Kind    = Ledger::Kind;
+    using Role    = Ledger::Role;
+    energy =
+      ledger.declare({"outflow_energy", "J", Section::work, Kind::total, Role::lost, "energy"});
+    for (int d = 0; d < dim; ++d)
+      momentum[d] = ledger.declare(
+        {std::string("outflow_momentum_") + "xyz"[d], "kg m/s", Section::momentum, Kind::total});
+    if (!soils.empty())
+      fluid_mass = ledger.declare(
+        {"outflow_fluid_mass", "kg", Section::content, Kind::total, Role::lost, "fluid"});
+    mass = ledger.declare({"outflow_mass", "kg", Section::state, Kind::total});
+    n_points =
+      ledger.declare({"outflow_points", "", Section::state, Kind::total, Role::none, "", true});
+  }
+
+
+
+  template <int dim>
+  void
+  OutflowTerm<dim>::book_outflow(const std::vector<PointRecord<dim>> &gone, Ledger &ledger) const
+  {
+    for (const auto &point : gone)
+      {
+        const PointState<dim> &state   = point.state;
+        double                 carried = 0.5 * state.mass * state.velocity.norm_square() +
+                         state.reference_volume * (state.strain_energy + state.hardening_energy +
+                                                   state.plastic_dissipation);
+        const auto body = static_cast<unsigned int>(state.body);
+        if (!soils.empty() && !(soils[body].dry_storage > 0.))
+          {
+            const PoreFluid &fluid = soils[body].fluid;
+            const double     pores =
+              state.porosity * determinant(state.deformation_gradient) * state.reference_volume;
+            const double water = fluid.density(state.pore_pressure) * pores;
+            carried += water * fluid.energy(state.pore_pressure);
+            ledger.book(fluid_mass, water);
+          }
+        ledger.book(energy, carried);
+        for (int d = 0; d < dim; ++d)
+          ledger.book(momentum[d], state.mass * state.velocity[d]);
+        ledger.book(mass, state.mass);
+        ledger.book(n_points, 1.);
+      }
+  }
+
+  template class OutflowTerm<2>;
+  template class OutflowTerm<3>;
+} // namespace kedge
