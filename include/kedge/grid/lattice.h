@@ -47,7 +47,7 @@ namespace kedge
     double
     upper(const int d) const
     {
-      return origin[d] + n_cells[d] * h[d];
+      return std::fma(n_cells[d], h[d], origin[d]); // the same bits with any compiler flags
     }
 
     /** The cell that holds @p x; a point on the box's upper side is in the last cell. */
