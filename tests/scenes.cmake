@@ -108,6 +108,10 @@ kedge_add_scene_test(scene.lost_support tests/scenes/lost_support.prm EXPECT_EXI
   EXPECT_STDERR "^$")
 kedge_add_scene_test(scene.lost_support.note tests/scenes/lost_support.prm OPTIONS --validate
   EXPECT_STDOUT "grip moves what it holds by 8 cells, but its nodes stay")
+# a solution that runs away is no reason to enlarge the grid
+kedge_add_scene_test(scene.unstable_tension tests/scenes/unstable_tension.prm EXPECT_EXIT 2
+  EXPECT_STDOUT "stopped at t = .*further than the whole grid: the equations have no sensible"
+  EXPECT_STDERR "^$")
 kedge_add_scene_test(scene.shear_patch prm/shear_patch.prm)
 # pressures that follow: uniform stress again, and Archimedes
 kedge_add_scene_test(scene.patch_pressure tests/scenes/patch_pressure.prm)

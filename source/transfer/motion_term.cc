@@ -5,6 +5,22 @@
 
 namespace kedge
 {
+  namespace
+  {
+    /** Of the whole grid [m]. */
+    template <int dim>
+    double
+    diagonal(const Lattice<dim> &lattice)
+    {
+      double square = 0.;
+      for (int d = 0; d < dim; ++d)
+        square += std::pow(lattice.upper(d) - lattice.origin[d], 2);
+      return std::sqrt(square);
+    }
+  } // namespace
+
+
+
   template <int dim>
   MotionTerm<dim>::MotionTerm(const unsigned int    field,
                               const Patch<dim>     &patch,
@@ -50,12 +66,18 @@ namespace kedge
   MotionTerm<dim>::finish(const Trial<dim> &trial)
   {
     interpolate_to_points(patch, trial.displacement(field), point_displacements);
-    Answer failure;
+    Answer       failure;
+    const double size = diagonal(patch.grid().lattice());
     for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
       {
-        const auto x = patch.points.location[slot] + point_displacements[slot];
-        if (patch.grid().lattice().contains(x) ||
-            open_sides.let_out(patch.grid().lattice(), dealii::Point<dim>(x)))
+        const auto x   = patch.points.location[slot] + point_displacements[slot];
+        const bool out = !patch.grid().lattice().contains(x);
+        if (out && point_displacements[slot].norm_square() > size * size)
+          {
+            failure = Answer::failure(describe_jump(slot));
+            break;
+          }
+        if (!out || open_sides.let_out(patch.grid().lattice(), dealii::Point<dim>(x)))
           continue;
         std::ostringstream cause;
         cause << "material point " << patch.points.id[slot] << " leaves the background grid at ("
@@ -69,6 +91,20 @@ namespace kedge
       return failure;
     const Answer some_stay = check_that_some_stay();
     return failure.ok ? some_stay : failure;
+  }
+
+
+
+  template <int dim>
+  std::string
+  MotionTerm<dim>::describe_jump(const unsigned int slot) const
+  {
+    std::ostringstream cause;
+    cause << "material point " << patch.points.id[slot] << " would move by ("
+          << point_displacements[slot]
+          << ") in this step, further than the whole grid: the equations have no sensible solution "
+             "here (a body at its limit load, an instability, or one that nothing holds)";
+    return cause.str();
   }
 
 

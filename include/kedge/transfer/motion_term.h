@@ -10,8 +10,8 @@ namespace kedge
   /**
    * The motion of a field's points: where a step takes them and how fast they are then.
    * It has no residual. A step that takes a point out of the background grid is
-   * refused, but for open sides of the grid. Books kinetic energy, momenta, mass and counts; if the scene has several
-   * fields, energy and momenta of each field too.
+   * refused, but for open sides of the grid. Books kinetic energy, momenta, mass and counts; if the
+   * scene has several fields, energy and momenta of each field too.
    */
   template <int dim>
   class MotionTerm : public Term<dim>
@@ -52,6 +52,9 @@ namespace kedge
     /** Whether points would stay in the grid; collective. */
     Answer
     check_that_some_stay() const;
+    /** Why a point cannot move as far as the equations say. */
+    std::string
+    describe_jump(const unsigned int slot) const;
 
     /** Momenta have their components in x, y, z; in 2D the angular one z alone. */
     struct Columns
