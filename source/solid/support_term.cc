@@ -55,11 +55,8 @@ namespace kedge
   void
   SupportTerm<dim>::declare_books(Ledger &ledger)
   {
-    work = ledger.declare(external_work);
-    reactions.assign(conditions.size() * dim, 0);
-    for (std::size_t c = 0; c < conditions.size(); ++c)
-      for (int d = 0; d < dim && conditions[c].reaction; ++d)
-        reactions[c * dim + d] = ledger.declare(force_column("reaction", conditions[c].name, d));
+    work      = ledger.declare(external_work);
+    reactions = declare_reactions<dim>(ledger, conditions);
   }
 
 

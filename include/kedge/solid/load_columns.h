@@ -3,6 +3,8 @@
 
 #include <kedge/equations/ledger.h>
 
+#include <vector>
+
 namespace kedge
 {
   /** The work of loads and supports: one column, whoever does it. */
@@ -21,6 +23,21 @@ namespace kedge
             "N",
             Ledger::Section::force,
             Ledger::Kind::of_step};
+  }
+
+  /**
+   * Columns of the reactions [N] of those @p conditions that ask for them: dim to a
+   * condition, 0 where it does not.
+   */
+  template <int dim, typename Condition>
+  std::vector<Ledger::Index>
+  declare_reactions(Ledger &ledger, const std::vector<Condition> &conditions)
+  {
+    std::vector<Ledger::Index> columns(conditions.size() * dim, 0);
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      for (int d = 0; d < dim && conditions[c].reaction; ++d)
+        columns[c * dim + d] = ledger.declare(force_column("reaction", conditions[c].name, d));
+    return columns;
   }
 } // namespace kedge
 
