@@ -5,6 +5,10 @@
 function(kedge_set_up_target target)
   deal_ii_setup_target(${target})
   target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
+  # deal.II's headers bring in Sacado's numbers and MPI's C++ classes, which kedge never uses: their
+  # guards keep them out, and a file compiles in half the time
+  target_compile_definitions(${target} PRIVATE SACADO_HPP
+    dealii_differentiation_ad_sacado_product_types_h OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${target} PRIVATE -O3 -g1 -fno-math-errno)
   endif()

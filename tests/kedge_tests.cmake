@@ -49,7 +49,7 @@ function(kedge_add_unit_tests target)
     target_link_libraries(${target} kedge::kedge)
     kedge_set_up_target(${target})
     target_compile_options(${target} PRIVATE -O1) # they are run once, and short
-    target_precompile_headers(${target} REUSE_FROM kedge_library)
+    target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/pch.h)
   endif()
   target_link_libraries(${target} GTest::gtest)
 
