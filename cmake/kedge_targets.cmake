@@ -8,7 +8,7 @@ function(kedge_set_up_target target)
   # deal.II's headers bring in Sacado's numbers and MPI's C++ classes, which kedge never uses: their
   # guards keep them out, and a file compiles in half the time
   target_compile_definitions(${target} PRIVATE SACADO_HPP
-    dealii_differentiation_ad_sacado_product_types_h OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+    dealii_differentiation_ad_sacado_product_types_h OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX BOOST_DISABLE_PRAGMA_MESSAGE)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${target} PRIVATE -O3 -g1 -fno-math-errno)
   endif()
@@ -38,4 +38,14 @@ function(kedge_generate_version result)
     COMMENT "")
   set_source_files_properties(${revision_source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   set(${result} ${revision_source} PARENT_SCOPE)
+endfunction()
+
+# The rooms that include little more of deal.II than its tensors: their files compile faster
+# without the precompiled header than it takes to load. `folder` holds the rooms.
+function(kedge_skip_precompiled_header folder)
+  set(light base materials python solvers stress time_integration)
+  foreach(room IN LISTS light)
+    file(GLOB files ${folder}/${room}/*.cc)
+    set_source_files_properties(${files} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  endforeach()
 endfunction()

@@ -50,6 +50,7 @@ function(kedge_add_unit_tests target)
     kedge_set_up_target(${target})
     target_compile_options(${target} PRIVATE -O1) # they are run once, and short
     target_precompile_headers(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/pch.h)
+    kedge_skip_precompiled_header(${CMAKE_CURRENT_SOURCE_DIR})
   endif()
   target_link_libraries(${target} GTest::gtest)
 

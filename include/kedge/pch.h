@@ -2,8 +2,6 @@
 #ifndef kedge_pch_h
 #define kedge_pch_h
 
-#define BOOST_DISABLE_PRAGMA_MESSAGE // Boost's notes about its own headers
-
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
