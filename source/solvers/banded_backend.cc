@@ -1,6 +1,8 @@
 #include "band_cholesky.h"
 #include "gathered_backend.h"
 
+#include <limits>
+
 extern "C"
 {
   void

@@ -2,6 +2,9 @@
 
 #include "backend.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace kedge
 {
   namespace
@@ -69,8 +72,8 @@ namespace kedge
 
     /**
      * A correction by multigrid on the lattice takes this part of that. Measured were 4 to 9
-     * iterations of half the length, set-up included; twice as much stands here, for a direct method
-     * does not fail.
+     * iterations of half the length, set-up included; twice as much stands here, for a direct
+     * method does not fail.
      */
     constexpr double lattice_factor = 0.4;
 
