@@ -1,7 +1,8 @@
 """Holds the rules of the house: architecture.py ROOT
 
 - the include arrows between the rooms, and no include cycles;
-- no file over 500 lines; no absolute path of somebody's home;
+- no file over 500 lines, no function over 60, no class over 20 data members;
+- no absolute path of somebody's home;
 - header guards named after the file; no build or work marks left behind;
 - every scene in prm/ is run by a test or a benchmark.
 """
@@ -49,6 +50,8 @@ MAY_INCLUDE["python"] = {"simulation", "io", "scene"}
 
 PARAMETER_HEADERS = re.compile(r"kedge/[a-z_]+/(parameters|loads|geometry)\.h$")
 LONGEST_FILE = 500
+LONGEST_FUNCTION = 60
+MOST_MEMBERS = 20
 CODE = {".cc", ".h", ".py", ".cmake", ".sh", ".prm", ".in"}
 HOME = re.compile(r"/(home|Users|root|work|tmp/[a-z])\b")
 
@@ -143,6 +146,72 @@ def text_faults(root, files):
                 yield f"{name}: the header guard must be {guard}_h"
 
 
+def blocks(text):
+    """
+    The blocks of braces in code, outer ones after inner ones: what stands before each since the
+    statement before, where it opens and closes; and the text without comments and directives.
+    """
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match.group(0))
+    text = re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', blank, text,
+                  flags=re.DOTALL)
+    text = re.sub(r"^[ \t]*#(?:[^\n\\]|\\.|\\\n)*", blank, text, flags=re.MULTILINE)
+    stack, found, begin = [], [], 0
+    for position in (match.start() for match in re.finditer(r"[{};]", text)):
+        if text[position] == "{":
+            stack.append((begin, position))
+        elif text[position] == "}" and stack:
+            first, opening = stack.pop()
+            found.append((" ".join(text[first:opening].split()), opening, position))
+        begin = position + 1
+    return found, text
+
+
+SCOPE = re.compile(r"(?:(?:public|private|protected) ?: ?)*(?:template ?<.*> ?)?(?:inline )?"
+                   r"(namespace|class|struct|union|enum|extern)\b(?!.*\) ?(?:const)?$)")
+
+
+def data_members(inside):
+    """How many data members a class with this between its braces has."""
+    before = None
+    while before != inside:
+        before, inside = inside, re.sub(r"\{[^{}]*\}", "@", inside)
+    number = 0
+    for statement in re.split(r";|@(?!\s*;)", inside):
+        statement = re.sub(r"(?:public|private|protected)\s*:|@", "", statement).split("=")[0]
+        before = None
+        while before != statement:
+            before, statement = statement, re.sub(r"<[^<>]*>", "", statement)
+        if statement.strip() and "(" not in statement and not re.match(
+                r"\s*(?:using|friend|static|typedef|template|class|struct|enum)\b", statement):
+            number += statement.count(",") + 1
+    return number
+
+
+def shape_faults(root, files):
+    """Functions that are too long, and classes of too many members."""
+    for path in files:
+        name = path.relative_to(root).as_posix()
+        if not re.match(r"(?:include|source)/.*\.(?:h|cc)$", name):
+            continue
+        found, text = blocks(path.read_text(encoding="utf-8"))
+        scopes = [block for block in found if SCOPE.match(block[0])]
+        for head, opening, closing in found:
+            line = text.count("\n", 0, opening)
+            scope = SCOPE.match(head)
+            if scope and scope.group(1) == "class":
+                number = data_members(text[opening + 1:closing])
+                if number > MOST_MEMBERS:
+                    yield (f"{name}:{line}: a class of {number} data members, "
+                           f"at most {MOST_MEMBERS}: {head}")
+            around = [block for block in found if block[1] < opening and block[2] > closing]
+            if not scope and "(" in head and all(block in scopes for block in around):
+                length = text.count("\n", opening, closing) - 1
+                if length > LONGEST_FUNCTION:
+                    yield (f"{name}:{line}: a function of {length} lines, "
+                           f"at most {LONGEST_FUNCTION}: {head}")
+
+
 def scene_faults(root, files):
     """Scenes that nothing runs."""
     users = [path for path in files
@@ -160,7 +229,7 @@ def main():
     root = Path(sys.argv[1]).resolve()
     files = tracked_files(root)
     faults = []
-    for check in (arrow_faults, cycle_faults, text_faults, scene_faults):
+    for check in (arrow_faults, cycle_faults, text_faults, shape_faults, scene_faults):
         faults += check(root, files)
     print(*faults, sep="\n")
     print(f"{len(files)} files, {len(faults)} faults")

@@ -152,9 +152,9 @@ namespace kedge
                const double         trial_shear,
                const double         n)
     {
-      const VolumetricResponse at_zero = volumetric_response(law.elastic, 0., n);
-      double                   inside  = -law.shift / at_zero.dissipative_slope;
-      double                   outside = std::max(trial_volume, largest_compression(law, n));
+      const VolumetricResponse<> at_zero = volumetric_response(law.elastic, 0., n);
+      double                     inside  = -law.shift / at_zero.dissipative_slope;
+      double                     outside = std::max(trial_volume, largest_compression(law, n));
       for (unsigned int i = 0; i < most_bisections; ++i)
         {
           volume                   = 0.5 * (inside + outside);
@@ -290,7 +290,7 @@ namespace kedge
     response.plastic_shear                       = result.multiplier * rho / (B * B);
 
     // the elastic energy from the trial strain back, the frozen energy, the dissipation
-    const VolumetricResponse trial = volumetric_response(elastic, trial_volume, n);
+    const VolumetricResponse<> trial = volumetric_response(elastic, trial_volume, n);
     response.work_increment -=
       0.5 * (trial.dissipative + volume.dissipative) * response.plastic_volume +
       elastic.shear_modulus * (trial_shear + result.shear) * response.plastic_shear +

@@ -130,7 +130,7 @@ namespace kedge
     pores.reinit(cloud, patch.points, porous_force.scheme());
     surfaces.reinit(cloud, patch);
     fluxes.reinit(cloud, patch);
-    blocks_have_pattern = blocks_have_pattern && !patch.new_pattern();
+    prepared.have_pattern = prepared.have_pattern && !patch.new_pattern();
   }
 
 
@@ -185,7 +185,7 @@ namespace kedge
   void
   PorousTerm<dim>::start(Trial<dim> &trial)
   {
-    blocks_have_values = false;
+    prepared.have_values = false;
     outflow.resize(surfaces.pressures(trial.times.t_n).size());
     pressure_mapping.map(patch, pores.pressure, radius, trial.unknowns.fields[field]);
     set_supply(trial.times);
@@ -306,19 +306,19 @@ namespace kedge
   {
     if (solver.choose(tangent.system()) != LinearSolverKind::krylov_blocks)
       return;
-    if (!blocks_have_pattern)
-      blocks.reinit(patch, tangent.equations(field), tangent.lattice(field).radius());
-    blocks_have_pattern = true;
-    if (blocks_have_values)
+    if (!prepared.have_pattern)
+      prepared.blocks.reinit(patch, tangent.equations(field), tangent.lattice(field).radius());
+    prepared.have_pattern = true;
+    if (prepared.have_values)
       return;
     const double factor  = porous_force.scheme().content_factor();
     const double inertia = scheme.inertia_coefficient(trial.times.dt);
-    blocks.assemble(patch,
-                    modulus_of_body,
-                    factor / scheme.alpha_f,
-                    inertia > 0. ? factor / inertia : 0.);
-    blocks_have_values = true;
-    solver.set_blocks(blocks.blocks());
+    prepared.blocks.assemble(patch,
+                             modulus_of_body,
+                             factor / scheme.alpha_f,
+                             inertia > 0. ? factor / inertia : 0.);
+    prepared.have_values = true;
+    solver.set_blocks(prepared.blocks.blocks());
   }
 
 

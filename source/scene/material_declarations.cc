@@ -1,3 +1,4 @@
+#include <kedge/materials/parameters.h>
 #include <kedge/scene/material_declarations.h>
 
 namespace kedge
@@ -54,7 +55,7 @@ namespace kedge
     std::vector<EntryDeclaration>
     plasticity(const ValuePatterns<dim> &allow)
     {
-      const auto of_place = allow.expression({"x", "y", "z"}, "x, y, z").or_empty();
+      const auto of_place = allow.expression(spatial_variables(), "x, y, z, depth").or_empty();
       return {
         {"Yield radius rho_y",
          "",
@@ -79,7 +80,7 @@ namespace kedge
       return {
         {"Undrained strength",
          "",
-         allow.expression({"x", "y", "z"}, "x, y, z").or_empty(),
+         allow.expression(spatial_variables(), "x, y, z, depth").or_empty(),
          "tresca, von_mises: s_u, half the largest difference of principal stresses, in "
          "simple shear and plane strain, of the place where a point is at the start [Pa]."},
         {"Remoulded strength ratio",
@@ -106,7 +107,7 @@ namespace kedge
     {
       return {{"Cohesion",
                "",
-               allow.expression({"x", "y", "z"}, "x, y, z").or_empty(),
+               allow.expression(spatial_variables(), "x, y, z, depth").or_empty(),
                "drucker_prager, mohr_coulomb: c, of the place where a point is at the start [Pa]."},
               {"Friction angle",
                "",
@@ -165,7 +166,7 @@ namespace kedge
                "critical_state: its elastic law."},
               {"Preconsolidation pressure",
                "",
-               allow.expression({"x", "y", "z"}, "x, y, z").or_empty(),
+               allow.expression(spatial_variables(), "x, y, z, depth").or_empty(),
                "critical_state, modified_cam_clay: p_c, up to which pressure is elastic [Pa]. Of "
                "critical_state a number, which does not harden; of modified_cam_clay that at the "
                "start, of the place."},

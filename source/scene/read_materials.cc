@@ -24,8 +24,8 @@ namespace kedge
                  const double         factor      = 1.,
                  const bool           may_be_zero = false)
     {
-      const Expression expression(section.text(entry), {"x", "y", "z"}, section.constants());
-      SpatialConstant  constant(factor * expression({0., 0., 0.}));
+      const Expression expression(section.text(entry), spatial_variables(), section.constants());
+      SpatialConstant  constant(factor * expression({0., 0., 0., 0.}));
       constant.entry       = entry;
       constant.may_be_zero = may_be_zero;
       if (!expression.is_constant())

@@ -405,6 +405,60 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** Reads the sections that need no other, all of them, so that the user sees all errors. */
+    template <int dim>
+    void
+    read_alone(const ParameterReader &reader, const ParameterFile &file, Scene<dim> &scene)
+    {
+      UserErrors errors;
+      const bool has_grid = errors.attempt([&]() {
+        scene.grid = read_grid<dim>(reader);
+      });
+      for (const std::string &side : SectionReader(reader, {"Grid"}).list("Open sides"))
+        scene.open_sides.push_back(parse_side<dim>(side));
+      errors.attempt([&]() {
+        scene.node_conditions = read_node_conditions<dim>(reader);
+      });
+      errors.attempt([&]() {
+        scene.materials = read_materials(reader);
+      });
+      if (has_grid)
+        errors.attempt([&]() {
+          scene.bodies = read_bodies<dim>(reader,
+                                          scene.grid,
+                                          std::filesystem::path(file.file_name).parent_path());
+        });
+      errors.attempt([&]() {
+        scene.contacts = read_contacts<dim>(reader);
+      });
+      errors.attempt([&]() {
+        scene.body_conditions = read_body_conditions<dim>(reader);
+      });
+      errors.attempt([&]() {
+        scene.point_loads = read_point_loads<dim>(reader);
+      });
+      errors.attempt([&]() {
+        scene.tractions = read_tractions<dim>(reader);
+      });
+      const bool has_time = errors.attempt([&]() {
+        scene.time = read_time(reader);
+      });
+      errors.attempt([&]() {
+        scene.probes = read_probes<dim>(reader);
+      });
+      if (has_time)
+        errors.attempt([&]() {
+          scene.output = read_output(reader, scene.time);
+          scene.checks = read_checks(reader, scene.time);
+        });
+      errors.throw_if_any();
+    }
+  } // namespace
+
+
+
   template <int dim>
   Scene<dim>
   read_scene(const ParameterFile &file)
@@ -418,49 +472,7 @@ namespace kedge
 
     scene.name  = file.scene_name();
     scene.title = SectionReader(reader, {}).text("Title");
-    UserErrors errors;
-    // what stands alone, so that the user sees all errors at once
-    const bool has_grid = errors.attempt([&]() {
-      scene.grid = read_grid<dim>(reader);
-    });
-    for (const std::string &side : SectionReader(reader, {"Grid"}).list("Open sides"))
-      scene.open_sides.push_back(parse_side<dim>(side));
-    errors.attempt([&]() {
-      scene.node_conditions = read_node_conditions<dim>(reader);
-    });
-    errors.attempt([&]() {
-      scene.materials = read_materials(reader);
-    });
-    if (has_grid)
-      errors.attempt([&]() {
-        scene.bodies =
-          read_bodies<dim>(reader, scene.grid, std::filesystem::path(file.file_name).parent_path());
-      });
-    errors.attempt([&]() {
-      scene.contacts = read_contacts<dim>(reader);
-    });
-    errors.attempt([&]() {
-      scene.body_conditions = read_body_conditions<dim>(reader);
-    });
-    errors.attempt([&]() {
-      scene.point_loads = read_point_loads<dim>(reader);
-    });
-    errors.attempt([&]() {
-      scene.tractions = read_tractions<dim>(reader);
-    });
-    const bool has_time = errors.attempt([&]() {
-      scene.time = read_time(reader);
-    });
-    errors.attempt([&]() {
-      scene.probes = read_probes<dim>(reader);
-    });
-    if (has_time)
-      errors.attempt([&]() {
-        scene.output = read_output(reader, scene.time);
-        scene.checks = read_checks(reader, scene.time);
-      });
-    errors.throw_if_any();
-
+    read_alone(reader, file, scene);
     scene.body_force    = components<dim>(SectionReader(reader, {"Body force"}), "Acceleration");
     scene.equilibrium   = {SectionReader(reader, {"Equilibrium"}).whole_number("Steps"),
                            SectionReader(reader, {"Equilibrium"}).number("Duration")};

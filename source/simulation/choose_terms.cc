@@ -49,33 +49,7 @@ namespace kedge
         if (here.transfer)
           add_term(std::make_unique<InertiaTerm<dim>>(field, patch, here.transfer->mass(), scheme));
       }
-    std::vector<TractionParameters<dim>> dead, following;
-    for (const auto &traction : scene.tractions)
-      {
-        if (!traction.traction[0].empty())
-          dead.push_back(traction);
-        if (!traction.pressure.empty())
-          following.push_back(traction);
-      }
-    auto &loads = add_term(std::make_unique<LoadTerm<dim>>(
-      field,
-      patch,
-      ExternalLoads<dim>(scene.body_force,
-                         bodies.has_body_force,
-                         scene.point_loads,
-                         scene.constants,
-                         program),
-      SurfaceTractions<dim>(dead, scene.constants, program, surface_terms),
-      bodies.names,
-      motion,
-      scheme));
-    if (!following.empty())
-      add_term(std::make_unique<FollowerTerm<dim>>(
-        field,
-        patch,
-        FollowerPressures<dim>(following, scene.constants, program, surface_terms),
-        bodies.names,
-        scheme));
+    LoadTerm<dim> &loads = choose_loads(field, motion, program);
     add_term(std::make_unique<SupportTerm<dim>>(field, patch, conditions_of(field), scheme));
     if (!scene.body_conditions.empty())
       choose_body_conditions(field, program);
@@ -100,6 +74,45 @@ namespace kedge
       choose_porous_terms(field, loads, ghosts, program);
     if (open_sides.any())
       add_term(std::make_unique<OutflowTerm<dim>>(bodies.soils));
+  }
+
+
+
+  template <int dim>
+  LoadTerm<dim> &
+  Model<dim>::choose_loads(const unsigned int field,
+                           MotionTerm<dim>   &motion,
+                           const LoadProgram &program)
+  {
+    const Patch<dim>                    &patch = fields[field]->patch;
+    std::vector<TractionParameters<dim>> dead, following;
+    for (const auto &traction : scene.tractions)
+      {
+        if (!traction.traction[0].empty())
+          dead.push_back(traction);
+        if (!traction.pressure.empty())
+          following.push_back(traction);
+      }
+    LoadTerm<dim> &loads = add_term(std::make_unique<LoadTerm<dim>>(
+      field,
+      patch,
+      ExternalLoads<dim>(scene.body_force,
+                         bodies.has_body_force,
+                         scene.point_loads,
+                         scene.constants,
+                         program),
+      SurfaceTractions<dim>(dead, scene.constants, program, surface_terms),
+      bodies.names,
+      motion,
+      scheme));
+    if (!following.empty())
+      add_term(std::make_unique<FollowerTerm<dim>>(
+        field,
+        patch,
+        FollowerPressures<dim>(following, scene.constants, program, surface_terms),
+        bodies.names,
+        scheme));
+    return loads;
   }
 
 

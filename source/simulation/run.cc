@@ -12,22 +12,6 @@
 
 namespace kedge
 {
-  namespace
-  {
-    /** What the mappings of the last step lost, of all fields together. */
-    template <int dim>
-    TransferAudit<dim>
-    audit_of(const Model<dim> &model)
-    {
-      TransferAudit<dim> sum = *model.fields.front()->transfer->audit();
-      for (std::size_t f = 1; f < model.fields.size(); ++f)
-        sum += *model.fields[f]->transfer->audit();
-      return sum;
-    }
-  } // namespace
-
-
-
   template <int dim>
   Run<dim>::Run(const Scene<dim> &scene, const RunOptions &options, const MPI_Comm communicator)
     : options(options)
@@ -78,7 +62,7 @@ namespace kedge
   void
   Run<dim>::start_fresh()
   {
-    open_output({});
+    output = std::make_unique<RunOutput<dim>>(model, step, folder, nullptr);
     folder.log() << "kedge: " << (model.scene.title.empty() ? model.scene.name : model.scene.title)
                  << std::endl;
     const bool            has_stage = model.scene.equilibrium.steps > 0;
@@ -94,8 +78,7 @@ namespace kedge
     step.initialise_points(clock.time(), has_stage);
     step.book_state();
     model.ledger.set_start();
-    counts.next_output_time = clock.time();
-    row.time_step           = 0.;
+    row.time_step = 0.;
     fill_row();
     const auto columns = model.ledger.columns();
     for (std::size_t k = 0; k < columns.size(); ++k)
@@ -103,10 +86,9 @@ namespace kedge
         row.books[k] = force->second;
     std::string bad = bad_number(clock.time());
     if (bad.empty())
-      bad = write_probes();
+      bad = output->write_start(row);
     if (!bad.empty())
       throw UserError("At the start " + bad + ".");
-    history->write(row);
     folder.log() << "  " << row.n_points << " material points in "
                  << static_cast<std::uint64_t>(model.ledger.value("n_active_cells")) << " cells, "
                  << static_cast<std::uint64_t>(model.ledger.value("n_dofs")) << " unknowns, "
@@ -115,9 +97,7 @@ namespace kedge
     describe_attachments(model, step, folder.log());
     for (const std::string &note : options.notes)
       folder.log() << "  note: " << note << std::endl;
-    write_points(true);
-    if (!last_points_step)
-      write_grid();
+    output->write_first_pictures(clock);
   }
 
 
@@ -231,18 +211,12 @@ namespace kedge
     counts.rejected_pending = 0;
     counts.points_times_steps += static_cast<double>(row.n_points) * report.newton.iterations;
 
-    const Stopwatch stopwatch(output_time);
-    std::string     bad = bad_number(begin);
+    std::string bad = bad_number(begin);
     if (bad.empty())
-      bad = write_probes();
+      bad = output->write_step(row, report.newton);
     if (!bad.empty())
       return bad + ", after step " + std::to_string(row.step);
-    if (newton_log)
-      newton_log->write(row.step, row.time, true, report.newton);
-    if (audit_writer)
-      audit_writer->write(row.step, row.time, audit_of(model));
-    history->write(row);
-    write_points(false);
+    output->write_points(clock, false);
     log.accepted(row, wall_time());
     return "";
   }
@@ -288,8 +262,7 @@ namespace kedge
   {
     ++counts.rejected;
     ++counts.rejected_pending;
-    if (newton_log)
-      newton_log->write(clock.n_steps() + 1, clock.next_time(), false, report.newton);
+    output->write_rejected(clock.n_steps() + 1, clock.next_time(), report.newton);
     const double size = clock.step_size();
     const bool   cut  = !report.hopeless && clock.cut_step();
     if (cut)
@@ -335,7 +308,7 @@ namespace kedge
     double in_steps                    = 0.;
     for (const auto &phase : phases)
       in_steps += phase.second.wall;
-    phases["output"] = output_time;
+    phases["output"] = output->time();
     for (const auto &[name, time] : phases)
       {
         summary.phase_wall_seconds[name] = time.wall;
@@ -359,7 +332,7 @@ namespace kedge
     const bool stopped  = status == "numerical_stop" && state_is_good;
     log.finish(row);
     if (finished || stopped)
-      write_points(true);
+      output->write_points(clock, true);
     if (stopped || (finished && (model.scene.output.checkpoint_every_steps > 0 ||
                                  model.scene.output.checkpoint_interval > 0.)))
       write_checkpoint(); // one goes on from the end, too, with a later Time/End

@@ -1,7 +1,9 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/solid/initial_history.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kedge
 {
@@ -21,11 +23,11 @@ namespace kedge
         , constant(constant)
         , expression(constant->expression.empty()
                        ? Expression(constant->value)
-                       : Expression(constant->expression, {"x", "y", "z"}, constants))
+                       : Expression(constant->expression, spatial_variables(), constants))
       {}
 
       double
-      value(const double (&x)[3]) const
+      value(const double (&x)[4]) const
       {
         return constant->expression.empty() ? constant->value : constant->factor * expression(x);
       }
@@ -42,6 +44,21 @@ namespace kedge
       for (unsigned int c = 0; c < indices.size(); ++c)
         if (of_place[c] != nullptr)
           result.emplace_back(indices[c], of_place[c], constants);
+      return result;
+    }
+
+    /** How high each body reaches. */
+    template <int dim>
+    std::vector<double>
+    highest_points(const std::size_t n_bodies, const std::vector<GeneratedPoint<dim>> &points)
+    {
+      std::vector<double> result(n_bodies, std::numeric_limits<double>::lowest());
+      for (const auto &point : points)
+        {
+          const PointState<dim> &state = point.record.state;
+          double                &top   = result[static_cast<unsigned int>(state.body)];
+          top = std::max(top, state.reference_position[1] + state.reference_half_lengths[1]);
+        }
       return result;
     }
 
@@ -75,11 +92,12 @@ namespace kedge
     std::vector<std::vector<PlaceColumn>> columns;
     for (const MaterialParameters &material : parameters)
       columns.push_back(place_columns(material, constants));
+    const std::vector<double> tops = highest_points(parameters.size(), points);
     for (auto &point : points)
       {
         PointState<dim> &state = point.record.state;
         const auto       body  = static_cast<unsigned int>(state.body);
-        double           x[3]  = {0, 0, 0};
+        double           x[4]  = {0, 0, 0, tops[body] - state.reference_position[1]};
         for (int d = 0; d < dim; ++d)
           x[d] = state.reference_position[d];
         for (const PlaceColumn &column : columns[body])

@@ -170,38 +170,44 @@ namespace kedge
      * turned.
      */
     template <int dim>
-    dealii::Tensor<1, dim>
-    edges_of_box(const dealii::Tensor<2, dim> &F)
+    void
+    edges_of_box(const Pack (&F)[dim][dim], Pack (&edges)[dim])
     {
       std::array<int, std::size_t(dim)> order;
       std::iota(order.begin(), order.end(), 0);
-      double                 sum_of_weights = 0.;
-      dealii::Tensor<1, dim> logarithm;
+      Pack sum_of_weights = 0., logarithm[dim];
+      for (Pack &entry : logarithm)
+        entry = 0.;
       do
         {
-          std::array<dealii::Tensor<1, dim>, std::size_t(dim)> frame;
-          dealii::Tensor<1, dim>                               edge;
-          double                                               turn = 0.;
+          Pack frame[dim][dim], edge[dim], turn = 0.;
           for (int k = 0; k < dim; ++k)
             {
-              dealii::Tensor<1, dim> v;
               for (int i = 0; i < dim; ++i)
-                v[i] = F[i][order[k]];
+                frame[k][i] = F[i][order[k]];
               for (int j = 0; j < k; ++j)
-                v -= (v * frame[j]) * frame[j];
-              edge[order[k]] = v.norm();
-              frame[k]       = v / edge[order[k]];
+                {
+                  Pack along = 0.;
+                  for (int i = 0; i < dim; ++i)
+                    along += frame[k][i] * frame[j][i];
+                  for (int i = 0; i < dim; ++i)
+                    frame[k][i] -= along * frame[j][i];
+                }
+              Pack square = 0.;
+              for (int i = 0; i < dim; ++i)
+                square += frame[k][i] * frame[k][i];
+              edge[k] = sqrt(square);
+              for (int i = 0; i < dim; ++i)
+                frame[k][i] /= edge[k];
               turn += 2. - 2. * frame[k][order[k]]; // |q - e|^2
             }
-          const double weight = 1. / (std::max(turn, 0.) + no_turn);
+          const Pack weight = 1. / (select(turn > 0., turn, 0.) + no_turn);
           sum_of_weights += weight;
-          for (int d = 0; d < dim; ++d)
-            logarithm[d] += weight * std::log(edge[d]);
+          for (int k = 0; k < dim; ++k)
+            logarithm[order[k]] += weight * log1p(edge[k] - 1.);
       } while (std::next_permutation(order.begin(), order.end()));
-      dealii::Tensor<1, dim> result;
       for (int d = 0; d < dim; ++d)
-        result[d] = std::exp(logarithm[d] / sum_of_weights);
-      return result;
+        edges[d] = exp(logarithm[d] / sum_of_weights);
     }
   } // namespace
 
@@ -211,9 +217,21 @@ namespace kedge
   std::vector<dealii::Tensor<1, dim>>
   stretches_along_axes(const std::vector<dealii::Tensor<2, dim>> &deformation_gradients)
   {
-    std::vector<dealii::Tensor<1, dim>> result;
-    for (const auto &F : deformation_gradients)
-      result.push_back(edges_of_box(F));
+    const unsigned int                  n = deformation_gradients.size();
+    std::vector<dealii::Tensor<1, dim>> result(n);
+    Pack                                F[dim][dim], edges[dim];
+    for (unsigned int begin = 0; begin < n; begin += pack_width)
+      {
+        const PackOfSlots slots(begin, n);
+        for (unsigned int lane = 0; lane < pack_width; ++lane)
+          for (int i = 0; i < dim; ++i)
+            for (int j = 0; j < dim; ++j)
+              F[i][j].set(lane, deformation_gradients[slots.slot(lane)][i][j]);
+        edges_of_box<dim>(F, edges);
+        for (unsigned int lane = 0; lane < slots.count; ++lane)
+          for (int d = 0; d < dim; ++d)
+            result[slots.slot(lane)][d] = edges[d][lane];
+      }
     return result;
   }
 

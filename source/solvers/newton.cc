@@ -162,6 +162,30 @@ namespace kedge
         }
       return evaluation;
     }
+
+    /** Corrects the unknowns once, and evaluates there; false, with the cause, if that fails. */
+    bool
+    correct(NewtonProblem &problem, NewtonProblem::Evaluation &evaluation, NewtonReport &report)
+    {
+      double correction_norm = 0.;
+      problem.set_linear_tolerance(tolerance_of_correction(report, evaluation));
+      const LinearStatus linear = problem.solve_correction(correction_norm, false);
+      ++report.iterations;
+      report.linear_iterations += linear.iterations;
+      if (!linear.success || !std::isfinite(correction_norm))
+        {
+          report.cause =
+            (linear.success ? "the linear solver gave a value that is not finite" : linear.cause) +
+            iteration_text(report.iterations);
+          return false;
+        }
+      evaluation = advance(problem, residual_bound(report));
+      report.residual_norms.push_back(evaluation.residual_norm);
+      report.correction_norms.push_back(correction_norm);
+      if (!evaluation.ok)
+        report.cause = evaluation.cause + iteration_text(report.iterations);
+      return evaluation.ok;
+    }
   } // namespace
 
 
@@ -187,27 +211,10 @@ namespace kedge
     unsigned int n_added = 0;
     while (report.iterations < parameters.max_iterations)
       {
-        report.converged       = false; // an added iteration has to hold as well
-        double correction_norm = 0.;
-        problem.set_linear_tolerance(tolerance_of_correction(report, evaluation));
-        const LinearStatus linear = problem.solve_correction(correction_norm, false);
-        ++report.iterations;
-        report.linear_iterations += linear.iterations;
-        if (!linear.success || !std::isfinite(correction_norm))
-          {
-            report.cause = (linear.success ? "the linear solver gave a value that is not finite"
-                                           : linear.cause) +
-                           iteration_text(report.iterations);
-            return report;
-          }
-        evaluation = advance(problem, residual_bound(report));
-        report.residual_norms.push_back(evaluation.residual_norm);
-        report.correction_norms.push_back(correction_norm);
-        if (!evaluation.ok)
-          {
-            report.cause = evaluation.cause + iteration_text(report.iterations);
-            return report;
-          }
+        report.converged = false; // an added iteration has to hold as well
+        if (!correct(problem, evaluation, report))
+          return report;
+        const double correction_norm = report.correction_norms.back();
         if (report.iterations == 1)
           first_product = first_residual * correction_norm;
         const double product = evaluation.residual_norm * correction_norm;

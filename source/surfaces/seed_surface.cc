@@ -111,40 +111,28 @@ namespace kedge
 
 
 
-  template <int dim>
-  SurfaceMesh<dim>
-  march_surface(const Geometry<dim>            &geometry,
-                const double                    spacing,
-                const dealii::BoundingBox<dim> &domain)
+  namespace
   {
-    const SampledRegion<dim>                                    region(geometry, spacing, domain);
-    SurfaceMesh<dim>                                            mesh;
-    std::map<std::pair<std::size_t, std::size_t>, unsigned int> numbers;
-    const auto vertex = [&](const std::size_t in, const std::size_t out) {
-      const auto [entry, is_new] =
-        numbers.emplace(std::pair(in, out), static_cast<unsigned int>(mesh.vertices.size()));
-      if (is_new)
-        mesh.vertices.push_back(region.crossing(in, out));
-      return entry->second;
-    };
-    const auto add = [&](std::array<unsigned int, dim> facet,
-                         const dealii::Tensor<1, dim> &outward) {
-      mesh.facets.push_back(facet);
-      const auto   corners = mesh.corners(static_cast<unsigned int>(mesh.facets.size() - 1));
-      const double size    = area_vector<dim>(corners).norm();
-      if (size < 1e-9 * std::pow(spacing, dim - 1)) // the surface touches a point of the lattice
-        return mesh.facets.pop_back();
-      if (area_vector<dim>(corners) * outward < 0.)
-        std::swap(mesh.facets.back()[0], mesh.facets.back()[1]);
-    };
-    const auto                         simplices = simplices_of_cube<dim>();
-    typename SampledRegion<dim>::Index cell{};
-    for (bool more = true; more;)
+    /** The cuts of a surface through the simplices of a lattice. */
+    template <int dim>
+    class Cuts
+    {
+    public:
+      using Index = typename SampledRegion<dim>::Index;
+
+      Cuts(const SampledRegion<dim> &region, const double spacing)
+        : region(region)
+        , smallest(1e-9 * std::pow(spacing, dim - 1))
+        , simplices(simplices_of_cube<dim>())
+      {}
+
+      /** Adds the facets in a cell. */
+      void
+      add_cell(const Index &cell)
       {
         for (const auto &simplex : simplices)
           {
             std::vector<std::size_t> in, out;
-            dealii::Tensor<1, dim>   outward;
             for (const auto &corner : simplex)
               {
                 auto index = cell;
@@ -153,27 +141,82 @@ namespace kedge
                 const std::size_t k = region.number(index);
                 (region.inside[k] ? in : out).push_back(k);
               }
-            if (in.empty() || out.empty())
-              continue;
-            for (const std::size_t k : out)
-              outward += region.place(k) / static_cast<double>(out.size());
-            for (const std::size_t k : in)
-              outward -= region.place(k) / static_cast<double>(in.size());
-            std::vector<unsigned int> cut; // in turn around the cut
-            for (std::size_t i = 0; i < in.size(); ++i)
-              for (std::size_t k = 0; k < out.size(); ++k)
-                cut.push_back(vertex(in[i], out[i % 2 == 0 ? k : out.size() - 1 - k]));
-            std::array<unsigned int, dim> facet;
-            std::copy_n(cut.begin(), dim, facet.begin());
-            add(facet, outward);
-            if (cut.size() > dim) // a quadrilateral
-              {
-                facet[0]       = cut[0];
-                facet[1]       = cut[2];
-                facet[2 % dim] = cut[3 % cut.size()];
-                add(facet, outward);
-              }
+            if (!in.empty() && !out.empty())
+              add_simplex(in, out);
           }
+      }
+
+      SurfaceMesh<dim> mesh;
+
+    private:
+      /** Adds the cut that parts the corners within from those without. */
+      void
+      add_simplex(const std::vector<std::size_t> &in, const std::vector<std::size_t> &out)
+      {
+        dealii::Tensor<1, dim> outward;
+        for (const std::size_t k : out)
+          outward += region.place(k) / static_cast<double>(out.size());
+        for (const std::size_t k : in)
+          outward -= region.place(k) / static_cast<double>(in.size());
+        std::vector<unsigned int> cut; // in turn around the cut
+        for (std::size_t i = 0; i < in.size(); ++i)
+          for (std::size_t k = 0; k < out.size(); ++k)
+            cut.push_back(vertex(in[i], out[i % 2 == 0 ? k : out.size() - 1 - k]));
+        std::array<unsigned int, dim> facet;
+        std::copy_n(cut.begin(), dim, facet.begin());
+        add_facet(facet, outward);
+        if (cut.size() > dim) // a quadrilateral
+          {
+            facet[0]       = cut[0];
+            facet[1]       = cut[2];
+            facet[2 % dim] = cut[3 % cut.size()];
+            add_facet(facet, outward);
+          }
+      }
+
+      unsigned int
+      vertex(const std::size_t in, const std::size_t out)
+      {
+        const auto [entry, is_new] =
+          numbers.emplace(std::pair(in, out), static_cast<unsigned int>(mesh.vertices.size()));
+        if (is_new)
+          mesh.vertices.push_back(region.crossing(in, out));
+        return entry->second;
+      }
+
+      void
+      add_facet(const std::array<unsigned int, dim> &facet, const dealii::Tensor<1, dim> &outward)
+      {
+        mesh.facets.push_back(facet);
+        const auto corners = mesh.corners(static_cast<unsigned int>(mesh.facets.size() - 1));
+        const auto area    = area_vector<dim>(corners);
+        if (area.norm() < smallest) // the surface touches a point of the lattice
+          mesh.facets.pop_back();
+        else if (area * outward < 0.)
+          std::swap(mesh.facets.back()[0], mesh.facets.back()[1]);
+      }
+
+      const SampledRegion<dim>                                   &region;
+      const double                                                smallest; ///< facet that is kept
+      const decltype(simplices_of_cube<dim>())                    simplices;
+      std::map<std::pair<std::size_t, std::size_t>, unsigned int> numbers; ///< of vertices
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  SurfaceMesh<dim>
+  march_surface(const Geometry<dim>            &geometry,
+                const double                    spacing,
+                const dealii::BoundingBox<dim> &domain)
+  {
+    const SampledRegion<dim>  region(geometry, spacing, domain);
+    Cuts<dim>                 cuts(region, spacing);
+    typename Cuts<dim>::Index cell{};
+    for (bool more = true; more;)
+      {
+        cuts.add_cell(cell);
         more = false;
         for (unsigned int d = 0; d < dim && !more; ++d)
           if (++cell[d] + 1 < region.n[d])
@@ -181,7 +224,7 @@ namespace kedge
           else
             cell[d] = 0;
       }
-    return mesh;
+    return cuts.mesh;
   }
 
 

@@ -96,8 +96,9 @@ namespace kedge::test
   std::pair<double, double>
   slope_errors(const Material &material, const SoilStep &step, const double h)
   {
-    const auto at            = material.respond(step.strain, step.increment, step.history);
-    double     tangent_error = 0., work_error = 0., size = 0., stiffness = 0.;
+    const HistoryOf<Material> history = step.history;
+    const auto                at      = material.respond(step.strain, step.increment, history);
+    double                    tangent_error = 0., work_error = 0., size = 0., stiffness = 0.;
     for (const double tau : at.kirchhoff_stress)
       size = std::max(size, std::abs(tau));
     for (int j = 0; j < 3; ++j)
@@ -105,8 +106,8 @@ namespace kedge::test
         SoilStep plus = step, minus = step;
         plus.increment[j] += h;
         minus.increment[j] -= h;
-        const auto up   = material.respond(plus.strain, plus.increment, plus.history);
-        const auto down = material.respond(minus.strain, minus.increment, minus.history);
+        const auto up   = material.respond(plus.strain, plus.increment, history);
+        const auto down = material.respond(minus.strain, minus.increment, history);
         for (int i = 0; i < 3; ++i)
           stiffness = std::max(stiffness, std::abs(material.tangent(at, i, j)));
         for (int i = 0; i < 3; ++i)

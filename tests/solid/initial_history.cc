@@ -58,6 +58,18 @@ TEST(SolidInitialHistory, ConstantsOfPlaceAreThoseOfEachPointsPlace)
     }
 }
 
+TEST(SolidInitialHistory, DepthIsMeasuredFromTheHighestPointOfTheBody)
+{
+  auto points = some_points(); // the highest ones at y = 2 and 2.5, their domains reach 0.2 higher
+  for (auto &point : points)
+    point.record.state.reference_half_lengths[1] = 0.2;
+  set_initial_history<2>({clay("1 + depth"), clay("1 + 3*depth")}, {}, points);
+  const unsigned int column = memory_index("yield_stress");
+  for (unsigned int i = 0; i < points.size(); ++i)
+    EXPECT_DOUBLE_EQ(points[i].record.state.memory[column],
+                     i % 2 == 0 ? 2. * (1. + 2.2 - 0.5 * i) : 2. * (1. + 3. * (2.7 - 0.5 * i)));
+}
+
 TEST(SolidInitialHistory, AStrengthThatIsNoneIsRefusedWithItsPlace)
 {
   auto points = some_points();

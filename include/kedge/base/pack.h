@@ -210,6 +210,16 @@ namespace kedge
     return result;
   }
 
+  /** exp(x) - 1, accurate relative to the result. */
+  inline Pack
+  expm1(const Pack &x)
+  {
+    Pack result;
+    for (unsigned int lane = 0; lane < pack_width; ++lane)
+      result.lanes[lane] = std::expm1(x.lanes[lane]);
+    return result;
+  }
+
   /**
    * ln(1 + x), accurate relative to the result: the series of 2 artanh z,
    * z = x/(2 + x), where |z| <= 1/5, which twelve terms give to round-off, and

@@ -6,7 +6,7 @@
 namespace kedge
 {
   /** p' and what belongs to it of Hencky's law, which knows no pores. */
-  inline VolumetricResponse
+  inline VolumetricResponse<>
   volumetric_response(const Hencky &law, const double strain, const double)
   {
     return {law.bulk_modulus * strain,
@@ -17,7 +17,7 @@ namespace kedge
             0.};
   }
 
-  inline VolumetricResponse
+  inline VolumetricResponse<>
   volumetric_response(const ImprovedHencky &law, const double strain, const double n)
   {
     return law.volumetric(strain, n);
@@ -166,10 +166,10 @@ namespace kedge
     /** The yield function and what it is made of, at a strain and porosity. */
     struct Surface
     {
-      VolumetricResponse volume;
-      double             phi, rho; ///< dissipative stresses [Pa]
-      double             A, B;     ///< half axes [Pa]
-      double             excess;   ///< f = sqrt((phi/A)^2 + (rho/B)^2) - 1 [-]
+      VolumetricResponse<> volume;
+      double               phi, rho; ///< dissipative stresses [Pa]
+      double               A, B;     ///< half axes [Pa]
+      double               excess;   ///< f = sqrt((phi/A)^2 + (rho/B)^2) - 1 [-]
     };
 
     /** @param shear |dev eps^e| */

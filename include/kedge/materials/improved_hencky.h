@@ -11,14 +11,15 @@ namespace kedge
    * volume strain eps and the porosity n. Stresses are effective Kirchhoff
    * stresses, tension positive [Pa].
    */
+  template <typename Number = double>
   struct VolumetricResponse
   {
-    double pressure;                   ///< mean stress p' = dPsi/d eps
-    double slope;                      ///< dp'/d eps at fixed n
-    double porosity_slope;             ///< dp'/dn at fixed eps
-    double dissipative;                ///< p' - chi', chi' the shift stress (4.104)
-    double dissipative_slope;          ///< d(p' - chi')/d eps at fixed n
-    double dissipative_porosity_slope; ///< d(p' - chi')/dn at fixed eps
+    Number pressure;                   ///< mean stress p' = dPsi/d eps
+    Number slope;                      ///< dp'/d eps at fixed n
+    Number porosity_slope;             ///< dp'/dn at fixed eps
+    Number dissipative;                ///< p' - chi', chi' the shift stress (4.104)
+    Number dissipative_slope;          ///< d(p' - chi')/d eps at fixed n
+    Number dissipative_porosity_slope; ///< d(p' - chi')/dn at fixed eps
   };
 
   /**
@@ -39,7 +40,7 @@ namespace kedge
     static constexpr bool yields               = false;
     static constexpr bool can_fail             = true;
     static constexpr bool decoupled_volume     = false;
-    static constexpr bool takes_packs          = false;
+    static constexpr bool takes_packs          = true;
     static constexpr bool stress_is_work_slope = true;
 
     static constexpr std::array<Column, 1> columns{
@@ -58,13 +59,14 @@ namespace kedge
     }
 
     /** What the law answers to a principal strain. */
+    template <typename Number>
     struct Response
     {
-      double kirchhoff_stress[3]; ///< principal values tau'_i [Pa]
-      double work_increment;      ///< increment of Psi [J/m^3]
-      double bulk_modulus;        ///< dp'/d eps_v, the pores deforming too (C.7) [Pa]
-      double volume_strain;       ///< ln J at the end [-]
-      bool   valid;               ///< false if n <= 0; nothing else is set then
+      Number            kirchhoff_stress[3]; ///< principal values tau'_i [Pa]
+      Number            work_increment;      ///< increment of Psi [J/m^3]
+      Number            bulk_modulus;        ///< dp'/d eps_v, the pores deforming too (C.7) [Pa]
+      Number            volume_strain;       ///< ln J at the end [-]
+      Condition<Number> valid;               ///< false if n <= 0; the rest is of no use then
     };
 
     explicit ImprovedHencky(const MaterialParameters &parameters)
@@ -76,17 +78,20 @@ namespace kedge
     {}
 
     /** n at the total volume strain ln J. */
-    double
-    porosity(const double volume_strain) const
+    template <typename Number>
+    Number
+    porosity(const Number &volume_strain) const
     {
-      return 1. - (1. - initial_porosity) * std::exp(-volume_strain);
+      using std::exp;
+      return 1. - (1. - initial_porosity) * exp(-volume_strain);
     }
 
     /** p' and what belongs to it at an elastic volume strain and a porosity n > 0. */
-    VolumetricResponse
-    volumetric(const double strain, const double n) const
+    template <typename Number>
+    VolumetricResponse<Number>
+    volumetric(const Number &strain, const Number &n) const
     {
-      const double secant = bulk_parameter / n, closed = strain * (1. - n) / n;
+      const Number secant = bulk_parameter / n, closed = strain * (1. - n) / n;
       return {secant * strain * (1. - 0.5 * closed),
               secant * (1. - closed),
               0.5 * secant * strain / n * (strain * (2. - n) / n - 2.),
@@ -95,33 +100,35 @@ namespace kedge
               -secant * strain / n};
     }
 
-    Response
-    respond(const double (&strain_n)[3],
-            const double (&increment)[3],
-            const History<double> &history) const
+    template <typename Number>
+    Response<Number>
+    respond(const Number (&strain_n)[3],
+            const Number (&increment)[3],
+            const History<Number> &history) const
     {
-      const double trace_n = strain_n[0] + strain_n[1] + strain_n[2];
-      const double trace_d = increment[0] + increment[1] + increment[2];
-      const double strain  = trace_n + trace_d;
+      using std::expm1;
+      const Number trace_n = strain_n[0] + strain_n[1] + strain_n[2];
+      const Number trace_d = increment[0] + increment[1] + increment[2];
+      const Number strain  = trace_n + trace_d;
 
-      Response response;
+      Response<Number> response;
       response.volume_strain = history.volume_strain + trace_d;
-      const double n_n       = porosity(history.volume_strain);
-      const double n         = porosity(response.volume_strain);
+      const Number n_n       = porosity(history.volume_strain);
+      const Number n         = porosity(response.volume_strain);
       response.valid         = n > 0. && n_n > 0.;
-      if (!response.valid)
+      if (!any(response.valid))
         return response;
 
-      const VolumetricResponse volume = volumetric(strain, n);
-      response.bulk_modulus           = volume.slope + (1. - n) * volume.porosity_slope;
-      double deviatoric               = 0.;
+      const VolumetricResponse<Number> volume = volumetric(strain, n);
+      response.bulk_modulus                   = volume.slope + (1. - n) * volume.porosity_slope;
+      Number deviatoric                       = 0.;
       for (int i = 0; i < 3; ++i)
         {
-          const double e_n = strain_n[i] - trace_n / 3., de = increment[i] - trace_d / 3.;
+          const Number e_n = strain_n[i] - trace_n / 3., de = increment[i] - trace_d / 3.;
           deviatoric += de * (2. * e_n + de);
           response.kirchhoff_stress[i] = volume.pressure + 2. * shear_modulus * (e_n + de);
         }
-      const double pores_opened = -(1. - n_n) * std::expm1(-trace_d); // n - n_n
+      const Number pores_opened = -(1. - n_n) * expm1(-trace_d); // n - n_n
       response.work_increment =
         0.5 * bulk_parameter / n *
           (trace_d * (2. * trace_n + trace_d) - trace_n * trace_n * pores_opened / n_n) +
@@ -130,36 +137,40 @@ namespace kedge
     }
 
     /** Free energy per reference volume [J/m^3]; the history gives ln J of the same state. */
-    double
-    energy(const double (&strain)[3], const History<double> &history) const
+    template <typename Number>
+    Number
+    energy(const Number (&strain)[3], const History<Number> &history) const
     {
-      const double trace = strain[0] + strain[1] + strain[2];
-      double       sum   = 0.;
-      for (const double eps : strain)
+      const Number trace = strain[0] + strain[1] + strain[2];
+      Number       sum   = 0.;
+      for (const Number &eps : strain)
         sum += (eps - trace / 3.) * (eps - trace / 3.);
       return 0.5 * bulk_parameter / porosity(history.volume_strain) * trace * trace +
              shear_modulus * sum;
     }
 
     /** d tau'_i / d eps_j [Pa]. */
-    double
-    tangent(const Response &response, const int i, const int j) const
+    template <typename Number>
+    Number
+    tangent(const Response<Number> &response, const int i, const int j) const
     {
       return response.bulk_modulus - 2. / 3. * shear_modulus + (i == j ? 2. * shear_modulus : 0.);
     }
 
     /** (tau_i - tau_j) / (eps_i - eps_j) of two principal directions [Pa]. */
-    double
-    secant_shear(const Response &, const int, const int) const
+    template <typename Number>
+    Number
+    secant_shear(const Response<Number> &, const int, const int) const
     {
       return 2. * shear_modulus;
     }
 
     /** The volume strain at the end of the step. */
-    History<double>
-    updated(const Response &response, const History<double> &history) const
+    template <typename Number>
+    History<Number>
+    updated(const Response<Number> &response, const History<Number> &history) const
     {
-      History<double> end = history;
+      History<Number> end = history;
       end.volume_strain   = response.volume_strain;
       return end;
     }

@@ -2,6 +2,7 @@
 #define kedge_materials_parameters_h
 
 #include <string>
+#include <vector>
 
 namespace kedge
 {
@@ -45,13 +46,23 @@ namespace kedge
   };
 
   /**
+   * What a constant of place may depend on: the reference place X = (x, y, z) and how far below
+   * the highest point of its body, along y, that is [m].
+   */
+  inline std::vector<std::string>
+  spatial_variables()
+  {
+    return {"x", "y", "z", "depth"};
+  }
+
+  /**
    * A constant of a law that may differ from place to place: factor times an
-   * expression of the reference place X = (x, y, z).
+   * expression of spatial_variables().
    */
   struct SpatialConstant
   {
     double      value       = 0.;    ///< the same everywhere, or that at X = 0
-    std::string expression  = "";    ///< of x, y, z; empty if it is the same everywhere
+    std::string expression  = "";    ///< of spatial_variables(); empty if it is the same everywhere
     double      factor      = 1.;    ///< by which the expression is multiplied
     std::string entry       = "";    ///< its name in the scene
     bool        may_be_zero = false; ///< else it must be positive

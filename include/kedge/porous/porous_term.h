@@ -128,6 +128,12 @@ namespace kedge
       double mass = 0.; ///< in the balance of the step: dt m' [kg]
       double work = 0.; ///< done on it, free enthalpy times mass [J]
     };
+    /** What the solver is given of the tangent. */
+    struct SolverBlocks
+    {
+      PressureBlocks<dim> blocks;
+      bool                have_pattern = false, have_values = false;
+    };
     struct Columns
     {
       Ledger::Index stabilisation, fluid_energy, darcy, work;
@@ -167,8 +173,7 @@ namespace kedge
 
     PorePoints<dim>              pores;
     PressureMapping<dim>         pressure_mapping;
-    PressureBlocks<dim>          blocks;
-    bool                         blocks_have_pattern = false, blocks_have_values = false;
+    SolverBlocks                 prepared;
     std::vector<double>          supply_share; ///< by fluxes in this step; empty: none [m^3]
     std::vector<double>          supply;       ///< the same, complete at the owned nodes
     std::vector<double>          outflow;      ///< through surfaces with a pressure [m^3]

@@ -7,6 +7,7 @@
 #include <kedge/simulation/points_on_grid.h>
 #include <kedge/solid/ghost_term.h>
 #include <kedge/solid/load_term.h>
+#include <kedge/transfer/motion_term.h>
 
 namespace kedge
 {
@@ -70,6 +71,8 @@ namespace kedge
     make_fields(const LoadProgram &program);
     void
     choose_terms(const unsigned int field, const LoadProgram &program);
+    LoadTerm<dim> &
+    choose_loads(const unsigned int field, MotionTerm<dim> &motion, const LoadProgram &program);
     void
     choose_body_conditions(const unsigned int field, const LoadProgram &program);
     void

@@ -1,20 +1,13 @@
 #ifndef kedge_simulation_run_h
 #define kedge_simulation_run_h
 
-#include <kedge/io/audit_writer.h>
 #include <kedge/io/checkpoint.h>
-#include <kedge/io/grid_output.h>
-#include <kedge/io/history_writer.h>
-#include <kedge/io/newton_log.h>
-#include <kedge/io/points_output.h>
-#include <kedge/io/probe_writer.h>
 #include <kedge/io/run_folder.h>
 #include <kedge/io/signals.h>
 #include <kedge/io/summary.h>
 #include <kedge/simulation/run_log.h>
 #include <kedge/simulation/run_options.h>
-#include <kedge/simulation/step.h>
-#include <kedge/time_integration/clock.h>
+#include <kedge/simulation/run_output.h>
 
 namespace kedge
 {
@@ -67,15 +60,12 @@ namespace kedge
       std::uint64_t linear             = 0;
       std::uint64_t rejected           = 0;
       std::uint64_t rejected_pending   = 0; ///< since the last accepted step
-      double        next_output_time   = 0.;
     };
 
     void
     start_fresh();
     void
     resume();
-    void
-    open_output(const std::map<std::string, std::uint64_t> &positions);
     void
     set_step();
     /** Commits an accepted step and writes what is due, or says what of it is no number. */
@@ -91,13 +81,6 @@ namespace kedge
     watch_porosity();
     bool
     reject_step(const StepReport &report);
-    /** Writes a row, or says which of its numbers is not finite. */
-    std::string
-    write_probes();
-    void
-    write_points(const bool force);
-    void
-    write_grid();
     void
     write_checkpoint_if_due();
     RunEnd
@@ -109,8 +92,6 @@ namespace kedge
 
     double
     wall_time() const;
-    std::vector<Probe>
-    find_probes() const;
 
     const RunOptions options;
     const MPI_Comm   communicator;
@@ -124,18 +105,11 @@ namespace kedge
     bool             porosity_is_lost = false;
     bool             state_is_good    = true; ///< what a checkpoint may keep
 
-    std::unique_ptr<HistoryWriter>     history;
-    std::unique_ptr<ProbeWriter<dim>>  probes;
-    std::unique_ptr<PointsOutput<dim>> points_output;
-    std::unique_ptr<GridOutput<dim>>   grid_output;
-    std::unique_ptr<NewtonLog>         newton_log;
-    std::unique_ptr<AuditWriter<dim>>  audit_writer;
-    CheckpointStore<dim>               checkpoints;
-    RunLog                             log;
-    double                             last_checkpoint_wall = 0.;
-    std::uint64_t                      last_checkpoint_step = 0;
-    std::optional<std::uint64_t>       last_points_step; ///< step of the last output of points
-    PhaseTime                          output_time;
+    std::unique_ptr<RunOutput<dim>> output;
+    CheckpointStore<dim>            checkpoints;
+    RunLog                          log;
+    double                          last_checkpoint_wall = 0.;
+    std::uint64_t                   last_checkpoint_step = 0;
   };
 
   /**
