@@ -17,6 +17,8 @@ PROGRAM, OUTPUT = Path(sys.argv[1]), Path(sys.argv[2])
 sys.path.insert(0, str(PROGRAM.parent))
 
 import numpy as np  # noqa: E402
+from history_picture import load_curves  # noqa: E402
+from run_reader import Run  # noqa: E402
 from scene_reader import SceneFile, Unknown, evaluate  # noqa: E402
 from smooth_field import FilledPart, NodalAverage  # noqa: E402
 from vtu_reader import read_points  # noqa: E402
@@ -211,6 +213,26 @@ def test_scene_file():
         raise AssertionError(text)
 
 
+def test_derived_columns():
+    """Total stress is effective stress less pore pressure; moved supports and platens have curves."""
+    folder = OUTPUT / "soil"
+    folder.mkdir()
+    for section in ("Node conditions", "Body conditions"):
+        (folder / "parameters.prm").write_text(PARAMETERS.replace("Node conditions", section)
+                                               + "subsection Pore fluid\n set Density = 1e3\nend\n",
+                                               encoding="utf-8")
+        (folder / "history.csv").write_text("time,reaction_foot_y,total_energy\n0,0,0\n4,-3,0\n",
+                                            encoding="utf-8")
+        (folder / "probes.csv").write_text(
+            "time,a.b.cauchy_stress_yy,a.b.cauchy_stress_xy,a.b.pore_pressure\n0,-5,7,2\n4,-6,7,1\n",
+            encoding="utf-8")
+        run = Run(folder)
+        assert list(run.probes["a.b.total_stress_yy"]) == [-7, -7]
+        assert "a.b.total_stress_xy" not in run.probes
+        (curve,) = load_curves(run)
+        assert list(curve[1]) == [0, 1] and list(curve[2]) == [0, 3] # a t/4 with a = 1
+
+
 def test_smooth_field():
     """A constant stays one, also where no point is; a body fills itself."""
     place = body(0)["Points"][0]
@@ -253,6 +275,7 @@ test_reader()
 test_pictures()
 test_choices()
 test_scene_file()
+test_derived_columns()
 test_smooth_field()
 test_element_tests()
 test_bad_input()

@@ -240,7 +240,8 @@ def load_curves(run):
     time = run.history["time"]
     for name, columns in run.reactions().items():
         for direction, column in columns.items():
-            motion = run.scene.get(f"Node conditions/{name}/Component {direction}")
+            motion = (run.scene.get(f"Node conditions/{name}/Component {direction}")
+                      or run.scene.get(f"Body conditions/{name}/Component {direction}"))
             if motion.startswith("displacement(") and np.any(run.history[column]):
                 across = run.scene.history(motion[len("displacement("):-1], time)
                 if across is not None and np.ptp(across) > 0:

@@ -41,9 +41,15 @@ class Run:
         self.scene = SceneFile(self.folder / "parameters.prm")
 
     def read_probes(self):
-        """probes.csv; without the file, nothing."""
+        """probes.csv, and in saturated soil the total stresses; without the file, nothing."""
         path = self.folder / "probes.csv"
-        return read_table(path) if path.exists() else {}
+        table = read_table(path) if path.exists() else {}
+        for column, effective in list(table.items()):
+            probe, _, rest = column.rpartition(".")
+            pressure = table.get(f"{probe}.pore_pressure")
+            if pressure is not None and rest in [f"cauchy_stress_{a}{a}" for a in "xyz"]:
+                table[column.replace("cauchy_stress", "total_stress")] = effective - pressure
+        return table
 
     def title(self):
         """The run's name, and what its scene shows."""

@@ -62,6 +62,15 @@ def keep_constants_flat(panel):
         panel.set_ylim(middle - 0.1 * abs(middle), middle + 0.1 * abs(middle))
 
 
+def keep_numbers_apart(panel):
+    """On a logarithmic axis of less than a decade some plain numbers, not powers of ten."""
+    low, high = panel.get_xlim()
+    if high < 10 * low:
+        panel.xaxis.set_major_locator(plt.MaxNLocator(4, steps=[1, 2, 5, 10]))
+        panel.xaxis.set_major_formatter(plt.ScalarFormatter())
+        panel.xaxis.set_minor_locator(plt.NullLocator())
+
+
 def draw_element_tests(runs):
     """q over strain, q over p', e over p' (logarithmic), pore pressure or volume strain."""
     undrained = any(np.any(run.history["pore_pressure"]) for run in runs)
@@ -77,6 +86,7 @@ def draw_element_tests(runs):
         keep_constants_flat(panel)
         if up is VOID_RATIO and any(np.any(run.history["pressure"] > 0) for run in runs):
             panel.set_xscale("log")
+            keep_numbers_apart(panel)
     if len(runs) > 1:
         panels[0, 0].legend()
     return figure
