@@ -138,7 +138,8 @@ def books(path):
 def compare(arg, output):
     """Demands that all books of `output` equal the reference's as text."""
     expected = Path(f"{arg.output}.reference")
-    for name in ("history.csv", "probes.csv", "newton.csv", "transfer_audit.csv", "points.pvd"):
+    for name in ("history.csv", "probes.csv", "newton.csv", "transfer_audit.csv", "points.pvd",
+                 "surfaces.pvd"):
         if not (expected / name).exists():
             if name == "history.csv":
                 sys.exit("TEST FAILED: the run wrote no history.csv")

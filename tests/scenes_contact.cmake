@@ -61,3 +61,6 @@ kedge_add_scene_test(refusal.surface_spacing prm/prisms_collision.prm
   EXPECT_STDERR "Surface spacing of .* cells .* more surface points" LABELS refusal)
 kedge_add_scene_test(scene.contact.ranks prm/prisms_collision.prm RANKS 2
   EXPECT_EXIT 1 EXPECT_STDERR "Contact with a law runs on one process")
+kedge_add_test(scene.contact.surfaces LABELS scene
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/contact_surfaces.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/contact_surfaces)

@@ -7,6 +7,78 @@ namespace kedge
 {
   template <int dim>
   void
+  ContactPlace<dim>::set_response(const ContactResponse<dim>   &response,
+                                  const dealii::Tensor<1, dim> &normal,
+                                  const dealii::Tensor<1, dim> &displacement,
+                                  const double                  dt)
+  {
+    force     = (on_first ? area : -area) * response.traction;
+    pressure  = response.pressure;
+    gap       = response.gap_end;
+    friction  = area * response.dissipation;
+    slip_rate = (displacement - (displacement * normal) * normal) / dt;
+    sticks    = response.sticks;
+  }
+
+
+
+  Ledger::Entry
+  contact_column(const std::string &what,
+                 const std::string &unit,
+                 const Ledger::Kind kind,
+                 const std::string &contact)
+  {
+    std::string name = "contact_" + what + "_" + contact;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return {name, unit, Ledger::Section::force, kind};
+  }
+
+
+
+  template <int dim>
+  void
+  ResultantBooks<dim>::Sum::add(const dealii::Point<dim> &at, const dealii::Tensor<1, dim> &on)
+  {
+    for (int d = 0; d < dim; ++d)
+      force[d] += on[d];
+    // x_i f_j is in the moment about the axis that follows both, x_j f_i against it
+    for (int i = 0; i < dim; ++i)
+      for (int j = i + 1; j < dim; ++j)
+        moment[3 - i - j] += (j - i == 1 ? 1. : -1.) * (at[i] * on[j] - at[j] * on[i]);
+  }
+
+
+
+  template <int dim>
+  void
+  ResultantBooks<dim>::declare(Ledger &ledger, const std::string &contact)
+  {
+    const auto declared = [&](const std::string &what, const int d, const std::string &unit) {
+      return ledger.declare(
+        contact_column(what + "_" + "xyz"[d], unit, Ledger::Kind::of_step, contact));
+    };
+    for (int d = 0; d < dim; ++d)
+      force[d] = declared("force", d, "N");
+    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
+      moment[d] = declared("moment", d, "N m");
+  }
+
+
+
+  template <int dim>
+  void
+  ResultantBooks<dim>::book(Ledger &ledger, const Sum &sum) const
+  {
+    for (int d = 0; d < dim; ++d)
+      ledger.book(force[d], sum.force[d]);
+    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
+      ledger.book(moment[d], sum.moment[d]);
+  }
+
+
+
+  template <int dim>
+  void
   ContactBooks<dim>::declare(Ledger &ledger, const std::string &pair)
   {
     using Section  = Ledger::Section;
@@ -19,19 +91,14 @@ namespace kedge
     columns.released = ledger.declare(
       {"contact_energy_released", "J", Section::energy, Kind::total, Role::lost, "energy"});
 
-    std::string of_pair = "_" + pair;
-    std::replace(of_pair.begin(), of_pair.end(), ' ', '_');
-    const auto of_step = [&](const std::string &column, const std::string &unit, const Kind kind) {
-      return ledger.declare({"contact_" + column + of_pair, unit, Section::force, kind});
+    const auto of_pair = [&](const std::string &what, const std::string &unit, const Kind kind) {
+      return ledger.declare(contact_column(what, unit, kind, pair));
     };
-    for (int d = 0; d < dim; ++d)
-      columns.force[d] = of_step(std::string("force_") + "xyz"[d], "N", Kind::of_step);
-    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
-      columns.moment[d] = of_step(std::string("moment_") + "xyz"[d], "N m", Kind::of_step);
-    columns.area     = of_step("area", dim == 3 ? "m^2" : "m", Kind::of_step);
-    columns.pressure = of_step("pressure", "Pa", Kind::highest);
-    columns.overlap  = of_step("overlap", "m", Kind::highest);
-    columns.duration = of_step("duration", "s", Kind::total);
+    resultant.declare(ledger, pair);
+    columns.area     = of_pair("area", dim == 3 ? "m^2" : "m", Kind::of_step);
+    columns.pressure = of_pair("pressure", "Pa", Kind::highest);
+    columns.overlap  = of_pair("overlap", "m", Kind::highest);
+    columns.duration = of_pair("duration", "s", Kind::total);
   }
 
 
@@ -44,29 +111,21 @@ namespace kedge
                           const double                          dt,
                           const Lattice<dim>                   &lattice) const
   {
-    double area = 0., overlap = 0., friction = 0., force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
+    double area = 0., overlap = 0., friction = 0.;
+
+    typename ResultantBooks<dim>::Sum                      sum;
     std::map<LatticeIndex<dim>, std::pair<double, double>> load_and_area;
     for (const ContactPlace<dim> &place : places)
       {
         friction += place.friction;
-        overlap = std::max(overlap, place.overlap);
+        overlap = std::max(overlap, -place.gap);
         if (!(place.pressure > 0.))
           continue;
         area += place.area;
         auto &of_cell = load_and_area[lattice.cell_of(place.at)];
         of_cell.first += place.area * place.pressure;
         of_cell.second += place.area;
-        double arm[3] = {0, 0, 0}, on[3] = {0, 0, 0};
-        for (int d = 0; d < dim; ++d)
-          {
-            arm[d] = place.at[d];
-            on[d]  = place.force[d];
-          }
-        for (int d = 0; d < 3; ++d)
-          {
-            force[d] += on[d];
-            moment[d] += arm[(d + 1) % 3] * on[(d + 2) % 3] - arm[(d + 2) % 3] * on[(d + 1) % 3];
-          }
+        sum.add(place.at, place.force);
       }
     double pressure = 0., largest_area = 0.;
     for (const auto &[cell, sums] : load_and_area)
@@ -80,10 +139,7 @@ namespace kedge
     ledger.book(columns.pressure, pressure);
     ledger.book(columns.overlap, overlap);
     ledger.book(columns.duration, area > 0. ? dt : 0.);
-    for (int d = 0; d < dim; ++d)
-      ledger.book(columns.force[d], force[d]);
-    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
-      ledger.book(columns.moment[d], moment[d]);
+    resultant.book(ledger, sum);
   }
 
 
@@ -97,6 +153,10 @@ namespace kedge
       ledger.book(extreme, 0.); // of states without a step before them
   }
 
+  template struct ContactPlace<2>;
+  template struct ContactPlace<3>;
+  template class ResultantBooks<2>;
+  template class ResultantBooks<3>;
   template class ContactBooks<2>;
   template class ContactBooks<3>;
 } // namespace kedge

@@ -85,10 +85,10 @@ namespace kedge
         result.traction += trial;
         result.slope -= law.alpha * eps_t * across;
         result.slip_end = slip_n + D_t;
+        result.sticks   = true;
         return result;
       }
     const dealii::Tensor<1, dim> direction = trial / size, t = limit * direction;
-    result.slides = true;
     result.traction += t;
     result.slope +=
       law.friction * pressure.slope * outer_product(direction, gap_slope) -

@@ -345,6 +345,7 @@ namespace kedge
         released += half.stored() - half.stored_at_start() + stored;
         released -= half.stored_of(end_of_step[k]);
       }
+    places = places_of_step(trial.times.dt);
     return {};
   }
 
@@ -360,31 +361,54 @@ namespace kedge
 
 
   template <int dim>
-  void
-  ContactTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  std::vector<ContactPlace<dim>>
+  ContactTerm<dim>::places_of_step(const double dt) const
   {
-    std::vector<ContactPlace<dim>> places;
+    std::vector<ContactPlace<dim>> result;
     for (std::size_t k = 0; k < passes.size(); ++k)
       for (const auto &sample : passes[k].samples())
         {
-          // on the first body, where that one is
-          const bool        first = k % 2 == 0;
-          const auto        end   = passes[k].outcome(sample);
-          ContactPlace<dim> place;
+          const SurfaceSamples<dim> &half = passes[k];
+          ContactPlace<dim>          place;
+          place.surface  = &half.sampled.surface;
+          place.facet    = sample.facet;
+          place.partner  = static_cast<int>(half.other.surface.body);
+          place.on_first = k % 2 == 0;
+          // the force on the first body acts where that one is
           place.at =
-            first ? passes[k].place_at_balance(sample) : passes[k].partner_at_balance(sample);
-          place.force    = (first ? 1. : -1.) * sample.area * end.response.traction;
-          place.area     = sample.area;
-          place.pressure = end.response.pressure;
-          place.overlap  = -end.response.gap_end;
-          place.friction = sample.area * end.response.dissipation;
-          places.push_back(place);
+            place.on_first ? half.place_at_balance(sample) : half.partner_at_balance(sample);
+          place.area = sample.area;
+          place.set_response(half.response(sample),
+                             sample.partner.normal,
+                             half.relative_displacement(sample),
+                             dt);
+          result.push_back(place);
         }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  {
     books.book(ledger,
                places,
                released,
                trial.times.dt,
                surfaces.front()->surface.patch.grid().lattice());
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::show(ContactPicture<dim> &picture) const
+  {
+    for (const auto &surface : surfaces)
+      picture.add_surface(surface->surface);
+    picture.add(committed_places);
   }
 
 
@@ -407,6 +431,7 @@ namespace kedge
   {
     for (std::size_t k = 0; k < passes.size(); ++k)
       passes[k].commit(std::move(end_of_step[k]));
+    committed_places = std::move(places);
   }
 
 

@@ -168,17 +168,9 @@ namespace kedge
       {"contact_dissipation", "J", Section::energy, Kind::total, Role::lost, "energy"});
     columns.friction = ledger.declare(
       {"friction_dissipation", "J", Section::energy, Kind::total, Role::lost, "energy"});
-    std::string of_pair = "_" + pair;
-    std::replace(of_pair.begin(), of_pair.end(), ' ', '_');
-    const auto of_step = [&](const std::string &column, const std::string &unit, const Kind kind) {
-      return ledger.declare({"contact_" + column + of_pair, unit, Section::force, kind});
-    };
-    for (int d = 0; d < dim; ++d)
-      columns.force[d] = of_step(std::string("force_") + "xyz"[d], "N", Kind::of_step);
-    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
-      columns.moment[d] = of_step(std::string("moment_") + "xyz"[d], "N m", Kind::of_step);
-    columns.n_nodes  = of_step("nodes", "", Kind::of_step);
-    columns.duration = of_step("duration", "s", Kind::total);
+    resultant.declare(ledger, pair);
+    columns.n_nodes  = ledger.declare(contact_column("nodes", "", Kind::of_step, pair));
+    columns.duration = ledger.declare(contact_column("duration", "s", Kind::total, pair));
   }
 
 
@@ -247,7 +239,8 @@ namespace kedge
   NodalContactTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
   {
     const std::vector<dealii::Tensor<1, dim>> on_first = forces(trial);
-    double lost = 0., friction = 0., n_closed = 0., force[3] = {}, moment[3] = {};
+    double                                    lost = 0., friction = 0., n_closed = 0.;
+    typename ResultantBooks<dim>::Sum         sum;
     for (std::size_t n = 0; n < nodes_.size(); ++n)
       {
         const ContactNode<dim> &node = nodes_[n];
@@ -260,28 +253,16 @@ namespace kedge
         lost -= work - along_surface;
         friction -= along_surface;
         n_closed += 1.;
-        const auto x      = fields.patch[0]->node_position(node.node[0]);
-        double     arm[3] = {}, on[3] = {};
+        dealii::Point<dim> x = fields.patch[0]->node_position(node.node[0]);
         for (int d = 0; d < dim; ++d)
-          {
-            arm[d] = x[d] + alpha * trial.displacement(
-                                      fields.number[0])[std::size_t(node.node[0]) * dim + d];
-            on[d] = on_first[n][d];
-          }
-        for (int d = 0; d < 3; ++d)
-          {
-            force[d] += on[d];
-            moment[d] += arm[(d + 1) % 3] * on[(d + 2) % 3] - arm[(d + 2) % 3] * on[(d + 1) % 3];
-          }
+          x[d] += alpha * trial.displacement(fields.number[0])[std::size_t(node.node[0]) * dim + d];
+        sum.add(x, on_first[n]);
       }
     ledger.book(columns.lost, lost);
     ledger.book(columns.friction, friction);
     ledger.book(columns.n_nodes, n_closed);
     ledger.book(columns.duration, n_closed > 0. ? trial.times.dt : 0.);
-    for (int d = 0; d < dim; ++d)
-      ledger.book(columns.force[d], force[d]);
-    for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
-      ledger.book(columns.moment[d], moment[d]);
+    resultant.book(ledger, sum);
   }
 
   template class NodalContactTerm<2>;

@@ -247,6 +247,7 @@ namespace kedge
   {
     move(trial);
     released = 0.;
+    places.clear();
     for (Side &side : sides)
       {
         side.end_of_step.clear();
@@ -270,11 +271,29 @@ namespace kedge
             left += sample.area * stored(side.law, after);
             if (side.law.conserving ? end.gap_end < 0. || true_gap < 0. : end.pressure > 0.)
               side.end_of_step[sample.facet] = after;
+            places.push_back(place_of(side, sample, trial.times.dt));
           }
         // committed less taken up by samples; and at the end what samples had less what is kept
         released += stored(side, side.memory) - taken_up + left - stored(side, side.end_of_step);
       }
     return {};
+  }
+
+
+
+  template <int dim>
+  ContactPlace<dim>
+  WallTerm<dim>::place_of(const Side &side, const Sample &sample, const double dt) const
+  {
+    const dealii::Tensor<1, dim> D = displacement(side, sample);
+    ContactPlace<dim>            place;
+    place.surface = side.surface;
+    place.facet   = sample.facet;
+    place.partner = ContactPicture<dim>::wall;
+    place.at      = sample.place + alpha * D;
+    place.area    = sample.area;
+    place.set_response(response(side, sample), plane.normal, D, dt);
+    return place;
   }
 
 
@@ -292,25 +311,22 @@ namespace kedge
   void
   WallTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
   {
-    std::vector<ContactPlace<dim>> places;
-    for (const Side &side : sides)
-      for (const Sample &sample : side.samples)
-        {
-          const ContactResponse<dim> end = response(side, sample);
-          ContactPlace<dim>          place;
-          place.at       = sample.place + alpha * displacement(side, sample);
-          place.force    = sample.area * end.traction;
-          place.area     = sample.area;
-          place.pressure = end.pressure;
-          place.overlap  = -end.gap_end;
-          place.friction = sample.area * end.dissipation;
-          places.push_back(place);
-        }
     books.book(ledger,
                places,
                released,
                trial.times.dt,
                sides.front().surface->patch.grid().lattice());
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::show(ContactPicture<dim> &picture) const
+  {
+    for (const Side &side : sides)
+      picture.add_surface(*side.surface);
+    picture.add(committed_places);
   }
 
 
@@ -333,6 +349,7 @@ namespace kedge
   {
     for (Side &side : sides)
       side.memory = std::move(side.end_of_step);
+    committed_places = std::move(places);
   }
 
 

@@ -10,18 +10,6 @@ namespace kedge
 {
   namespace
   {
-    /** x, y, z of vectors side by side, z = 0 in 2D. */
-    template <int dim, typename Vector>
-    std::vector<double>
-    three_dimensional(const std::vector<Vector> &vectors)
-    {
-      std::vector<double> values(3 * vectors.size(), 0.);
-      for (std::size_t i = 0; i < vectors.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          values[3 * i + d] = vectors[i][d];
-      return values;
-    }
-
     template <int dim>
     VtuFile
     make_piece(const GridSnapshot<dim> &snapshot)
@@ -31,7 +19,7 @@ namespace kedge
       constexpr std::uint8_t                cell_type  = dim == 2 ? 9 : 12;
 
       VtuFile piece;
-      piece.set_nodes(three_dimensional<dim>(snapshot.nodes));
+      piece.set_nodes(with_three_components<dim>(snapshot.nodes));
       std::vector<std::int64_t> connectivity;
       connectivity.reserve(n_vertices * snapshot.cells.size());
       for (const auto &cell : snapshot.cells)
@@ -41,7 +29,7 @@ namespace kedge
       for (const auto &[name, values] : snapshot.nodal_scalars)
         piece.add_field({name, "", 1, {}}, values);
       for (const auto &[name, values] : snapshot.nodal_vectors)
-        piece.add_field({name, "", 3, {"x", "y", "z"}}, three_dimensional<dim>(values));
+        piece.add_field({name, "", 3, {"x", "y", "z"}}, with_three_components<dim>(values));
       return piece;
     }
   } // namespace

@@ -22,9 +22,9 @@ namespace kedge
     is_output_of_kedge(const std::string &name)
     {
       static const std::regex names(
-        "(history|probes|newton|transfer_audit)\\.csv|(points|grid)\\.pvd|points\\.xdmf|summary\\.json|"
+        "(history|probes|newton|transfer_audit)\\.csv|(points|grid|surfaces)\\.pvd|points\\.xdmf|summary\\.json|"
         "parameters\\.prm|log\\.txt|"
-        "(points/points|grid/grid)-[0-9]+(\\.[0-9]+)?\\.(vtu|pvtu|h5)|"
+        "(points/points|grid/grid|surfaces/surfaces)-[0-9]+(\\.[0-9]+)?\\.(vtu|pvtu|h5)|"
         "checkpoint/(state|unfinished|cleared)-[0-9]+/(manifest\\.txt|rank-[0-9]+\\.bin)");
       const bool temporary = fs::path(name).extension() == ".new";
       return std::regex_match(temporary ? name.substr(0, name.size() - 4) : name, names);
@@ -34,7 +34,7 @@ namespace kedge
     is_folder_of_kedge(const std::string &name)
     {
       static const std::regex names(
-        "points|grid|checkpoint|checkpoint/(state|unfinished|cleared)-[0-9]+");
+        "points|grid|surfaces|checkpoint|checkpoint/(state|unfinished|cleared)-[0-9]+");
       return std::regex_match(name, names);
     }
 

@@ -113,11 +113,20 @@ namespace kedge
 
 
 
+  template <typename Number>
+  VtuFile::Block
+  VtuFile::field(Array array, const std::vector<Number> &values)
+  {
+    array.type = std::is_same<Number, double>::value ? "Float64" : "Int64";
+    return append(array, values.data(), values.size() * sizeof(Number));
+  }
+
+
+
   void
   VtuFile::add_field(Array array, const std::vector<double> &values)
   {
-    array.type = "Float64";
-    fields.push_back(append(array, values.data(), values.size() * sizeof(double)));
+    fields.push_back(field(array, values));
   }
 
 
@@ -125,8 +134,23 @@ namespace kedge
   void
   VtuFile::add_field(Array array, const std::vector<std::int64_t> &values)
   {
-    array.type = "Int64";
-    fields.push_back(append(array, values.data(), values.size() * sizeof(std::int64_t)));
+    fields.push_back(field(array, values));
+  }
+
+
+
+  void
+  VtuFile::add_cell_field(Array array, const std::vector<double> &values)
+  {
+    cell_fields.push_back(field(array, values));
+  }
+
+
+
+  void
+  VtuFile::add_cell_field(Array array, const std::vector<std::int64_t> &values)
+  {
+    cell_fields.push_back(field(array, values));
   }
 
 
@@ -153,6 +177,7 @@ namespace kedge
     group("Points", nodes);
     group("Cells", cells);
     group("PointData", fields);
+    group("CellData", cell_fields);
 
     text += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
     text += appended;
@@ -171,10 +196,15 @@ namespace kedge
             "<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n";
     for (const Block &block : nodes)
       text += "<PDataArray" + attributes(block.array) + "/>\n";
-    text += "</PPoints>\n<PPointData>\n";
-    for (const Block &block : fields)
-      text += "<PDataArray" + attributes(block.array) + "/>\n";
-    text += "</PPointData>\n";
+    text += "</PPoints>\n";
+    const auto group = [&](const std::string &name, const std::vector<Block> &blocks) {
+      text += '<' + name + ">\n";
+      for (const Block &block : blocks)
+        text += "<PDataArray" + attributes(block.array) + "/>\n";
+      text += "</" + name + ">\n";
+    };
+    group("PPointData", fields);
+    group("PCellData", cell_fields);
     for (const std::string &piece : pieces)
       text += "<Piece Source=\"" + piece + "\"/>\n";
     return text + "</PUnstructuredGrid>\n</VTKFile>\n";

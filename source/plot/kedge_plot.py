@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Pictures of kedge's runs: energies and their error, momenta, reactions, loads over
 displacements, the solver's work, probes, and the body at chosen times coloured by a field;
+the pressures on surfaces in contact;
 of element tests of soil the curves of stress and strain, of other single points the stress over
 time."""
 import argparse
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import style
 from body_picture import BodyPicture
+from contact_picture import draw_contact
 from film import write_film
 from history_picture import Histories
 from run_reader import NoRun, Run, name_apart
@@ -57,7 +59,7 @@ def arguments():
                         help="d: days, a: years")
     parser.add_argument("--stress-unit", choices=("auto", "Pa", "kPa", "MPa", "GPa"),
                         default="auto")
-    parser.add_argument("--only", choices=("histories", "body"), help="one kind of picture")
+    parser.add_argument("--only", choices=("histories", "body", "contact"), help="one kind of picture")
     parser.add_argument("--formats", default="png,svg", help="default: png,svg")
     arg = parser.parse_intermixed_args()
     if arg.snapshots < 1:
@@ -110,6 +112,15 @@ def draw_bodies(arg, runs, output):
                     print(write_film(picture, output / f"{name}.{arg.film}"))
 
 
+def draw_contacts(arg, runs, output):
+    """The pressures on surfaces in contact of each run that has them."""
+    for run in runs:
+        which = "" if len(runs) == 1 else "-" + run.name.replace("/", "-")
+        figure = draw_contact(run, arg)
+        if figure is not None:
+            save(figure, output, f"contact{which}", arg.formats)
+
+
 def draw_all(arg, runs, output):
     """All pictures that the runs have data for."""
     if all(map(is_element_test, runs)):
@@ -122,10 +133,12 @@ def draw_all(arg, runs, output):
         if "energy_error" not in run.history:
             raise NoRun(f"{run.folder} holds a single material point, which is not drawn together "
                         "with runs of bodies")
-    if arg.only != "body":
+    if arg.only in (None, "histories"):
         draw_histories(arg, runs, output)
-    if arg.only != "histories":
+    if arg.only in (None, "body"):
         draw_bodies(arg, runs, output)
+    if arg.only in (None, "contact"):
+        draw_contacts(arg, runs, output)
 
 
 def main():

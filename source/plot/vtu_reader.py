@@ -101,8 +101,25 @@ def read_points(path):
         raise BadFile(f"{path}: {error}") from error
 
 
-def read_piece(data):
-    """The points of the text of a .vtu file."""
+def read_surfaces(path):
+    """The facets in a .vtu file: their corners, an array over facets, corners, x y z, and fields by
+    name with one row per facet."""
+    path = Path(path)
+    try:
+        root, decode = parse(path.read_bytes())
+        piece = root.find("UnstructuredGrid/Piece")
+        cells = {array.get("Name"): decode(array)[:, 0] for array in piece.iterfind("Cells/*")}
+        fields = {array.get("Name"): decode(array) for array in piece.iterfind("CellData/*")}
+        n_facets = len(cells["offsets"])
+        place = decode(piece.find("Points/DataArray"))
+        corners = place[cells["connectivity"]].reshape(n_facets, -1 if n_facets else 2, 3)
+        return corners, fields
+    except (OSError, ElementTree.ParseError, zlib.error, ValueError, KeyError) as error:
+        raise BadFile(f"{path}: {error}") from error
+
+
+def parse(data):
+    """The elements of the text of a .vtu file, and what decodes their arrays."""
     # Raw appended bytes are no XML: take them out before parsing.
     appended = b""
     begin = APPENDED.search(data)
@@ -115,10 +132,14 @@ def read_piece(data):
     if compressor not in ("", "vtkZLibDataCompressor"):
         raise ValueError(f"compressed by {compressor}, which is not understood here")
     raw = root.find("AppendedData") is None or root.find("AppendedData").get("encoding") == "raw"
-    decode = Decoder(order="<" if root.get("byte_order") == "LittleEndian" else ">",
-                     header=TYPES[root.get("header_type", "UInt32")],
-                     compressed=bool(compressor), appended=appended, raw=raw)
+    return root, Decoder(order="<" if root.get("byte_order") == "LittleEndian" else ">",
+                         header=TYPES[root.get("header_type", "UInt32")],
+                         compressed=bool(compressor), appended=appended, raw=raw)
 
+
+def read_piece(data):
+    """The points of the text of a .vtu file."""
+    root, decode = parse(data)
     points = Points()
     for piece in root.iter("Piece"):
         part = Points()

@@ -138,6 +138,8 @@ namespace kedge
     points  = std::make_unique<PointsOutput<dim>>(folder, scene.output, n_written("points"));
     if (scene.output.grid)
       grid = std::make_unique<GridOutput<dim>>(folder, n_written("grid"));
+    if (scene.output.surfaces && !model.shown_contacts.empty())
+      surfaces = std::make_unique<SurfaceOutput<dim>>(folder, n_written("surfaces"));
     if (scene.newton.log)
       newton = std::make_unique<NewtonLog>(folder, position("newton"));
     if (scene.transfer.audit && model.fields.front()->transfer)
@@ -241,6 +243,7 @@ namespace kedge
     last_step = clock.n_steps();
     points->write(clock.time(), model.points.points().records());
     write_grid(clock.time());
+    write_surfaces(clock.time());
   }
 
 
@@ -277,11 +280,27 @@ namespace kedge
 
   template <int dim>
   void
+  RunOutput<dim>::write_surfaces(const double time)
+  {
+    if (!surfaces)
+      return;
+    ContactPicture<dim> picture;
+    for (const ShownContact<dim> *contact : model.shown_contacts)
+      contact->show(picture);
+    surfaces->write(time, picture);
+  }
+
+
+
+  template <int dim>
+  void
   RunOutput<dim>::save(CheckpointData<dim> &data)
   {
     points->flush();
     if (grid)
       grid->flush();
+    if (surfaces)
+      surfaces->flush();
     const auto put = [&](const std::string &table, const CsvPosition &end) {
       data.counters[table + "_position"] = end.n_bytes;
       data.counters[table + "_checksum"] = end.checksum.value_or(0);
@@ -292,6 +311,7 @@ namespace kedge
     put("audit", audit ? audit->position() : CsvPosition());
     data.counters["points_written"]   = points->n_written();
     data.counters["grid_written"]     = grid ? grid->n_written() : 0;
+    data.counters["surfaces_written"] = surfaces ? surfaces->n_written() : 0;
     data.counters["last_points_step"] = last_step.value_or(0);
     data.scalars["next_output_time"]  = next_time;
     if (!model.scene.open_sides.empty())

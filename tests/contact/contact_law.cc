@@ -93,8 +93,8 @@ TYPED_TEST(ContactLawTest, WorkIsWhatIsStoredLessWhatIsDissipated)
       n_open += r.pressure == 0.;
       n_closing += s.gap > 0. && r.gap_end < 0.;
       n_opening += s.gap < 0. && r.gap_end > 0.;
-      n_sliding += r.slides;
-      n_sticking += r.pressure > 0. && !r.slides;
+      n_sliding += r.pressure > 0. && !r.sticks;
+      n_sticking += r.sticks;
     }
   for (const unsigned int n : {n_open, n_closing, n_opening, n_sliding, n_sticking})
     EXPECT_GT(n, 10u); // all branches were there
@@ -116,7 +116,7 @@ TYPED_TEST(ContactLawTest, SlopeIsThatOfTheTraction)
             plus[j] += e;
             minus[j] -= e;
             const auto above = respond(law, s, plus), below = respond(law, s, minus);
-            if (above.slides != below.slides || (above.pressure > 0.) != (below.pressure > 0.))
+            if (above.sticks != below.sticks || (above.pressure > 0.) != (below.pressure > 0.))
               continue; // a kink in between
             const auto slope = (above.traction - below.traction) / (2. * e);
             for (int i = 0; i < dim; ++i) // e^2 times third derivatives, and round-off 1e-16/e

@@ -46,13 +46,13 @@ namespace kedge
   template <int dim>
   struct ContactResponse
   {
-    double                 pressure = 0.;    ///< p [Pa]
-    dealii::Tensor<1, dim> traction;         ///< p s + t, on the sampled surface [Pa]
-    dealii::Tensor<2, dim> slope;            ///< d traction / dD [Pa/m]
-    double                 gap_end = 0.;     ///< g_1 [m]
-    dealii::Tensor<1, dim> slip_end;         ///< e_1, the elastic part of the slip [m]
-    double                 dissipation = 0.; ///< by friction in the step [J/m^2]
-    bool                   slides      = false;
+    double                 pressure = 0.;       ///< p [Pa]
+    dealii::Tensor<1, dim> traction;            ///< p s + t, on the sampled surface [Pa]
+    dealii::Tensor<2, dim> slope;               ///< d traction / dD [Pa/m]
+    double                 gap_end = 0.;        ///< g_1 [m]
+    dealii::Tensor<1, dim> slip_end;            ///< e_1, the elastic part of the slip [m]
+    double                 dissipation = 0.;    ///< by friction in the step [J/m^2]
+    bool                   sticks      = false; ///< held by friction; else it slides, or is open
   };
 
   /**

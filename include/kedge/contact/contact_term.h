@@ -1,7 +1,7 @@
 #ifndef kedge_contact_contact_term_h
 #define kedge_contact_contact_term_h
 
-#include <kedge/contact/contact_books.h>
+#include <kedge/contact/contact_picture.h>
 #include <kedge/contact/coupling_sum.h>
 #include <kedge/contact/parameters.h>
 #include <kedge/contact/surface_samples.h>
@@ -30,7 +30,9 @@ namespace kedge
    * iteration, lambda <- <lambda - eps g>, until no closed sample has more than a small gap.
    */
   template <int dim>
-  class ContactTerm : public Term<dim>
+  class ContactTerm
+    : public Term<dim>
+    , public ShownContact<dim>
   {
   public:
     /** In parts of a cell: how far partners are looked for, how deep surfaces may overlap, how
@@ -100,6 +102,9 @@ namespace kedge
     void
     restore(const SavedState &state) override;
 
+    void
+    show(ContactPicture<dim> &picture) const override;
+
     /** The halves of each pair of bodies: samples on the first body's surface, on the second's. */
     const std::vector<SurfaceSamples<dim>> &
     halves() const
@@ -125,6 +130,8 @@ namespace kedge
     touches() const;
     bool
     presses() const;
+    std::vector<ContactPlace<dim>>
+    places_of_step(const double dt) const;
 
     const ContactParameters                          parameters;
     const Scheme                                     scheme;
@@ -133,7 +140,8 @@ namespace kedge
     std::vector<std::unique_ptr<MovingSurface<dim>>> surfaces;
     std::vector<SurfaceSamples<dim>> passes; ///< first on second, second on first ..
     std::vector<Memory>              end_of_step;
-    double                           released = 0.; ///< energy lost track of [J]
+    std::vector<ContactPlace<dim>>   places, committed_places; ///< of the attempt, of the last step
+    double                           released = 0.;            ///< energy lost track of [J]
     unsigned int                     n_passes = 0, n_updates = 0;
     unsigned int                     n_tangents = 0, n_follows = 0;
     ContactBooks<dim>                books;

@@ -1,6 +1,7 @@
 #ifndef kedge_contact_nodal_contact_term_h
 #define kedge_contact_nodal_contact_term_h
 
+#include <kedge/contact/contact_books.h>
 #include <kedge/contact/parameters.h>
 #include <kedge/equations/term.h>
 
@@ -134,11 +135,12 @@ namespace kedge
   private:
     struct Columns
     {
-      Ledger::Index lost, friction, force[dim], moment[3], n_nodes, duration;
+      Ledger::Index lost, friction, n_nodes, duration;
     };
 
     std::vector<ContactNode<dim>> nodes_;
     Columns                       columns{};
+    ResultantBooks<dim>           resultant{};
   };
 } // namespace kedge
 

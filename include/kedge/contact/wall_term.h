@@ -1,8 +1,7 @@
 #ifndef kedge_contact_wall_term_h
 #define kedge_contact_wall_term_h
 
-#include <kedge/contact/contact_books.h>
-#include <kedge/contact/contact_law.h>
+#include <kedge/contact/contact_picture.h>
 #include <kedge/contact/parameters.h>
 #include <kedge/equations/term.h>
 #include <kedge/surfaces/body_surface.h>
@@ -39,7 +38,9 @@ namespace kedge
    * measured one. Without inertia the pressures are found by Uzawa's iteration, as in ContactTerm.
    */
   template <int dim>
-  class WallTerm : public Term<dim>
+  class WallTerm
+    : public Term<dim>
+    , public ShownContact<dim>
   {
   public:
     /** In parts of a cell: how near samples matter, how deep they may come, how small the gaps of
@@ -101,6 +102,9 @@ namespace kedge
     void
     restore(const SavedState &state) override;
 
+    void
+    show(ContactPicture<dim> &picture) const override;
+
   private:
     /** What a facet's middle carries from step to step while it is closed. */
     struct Closed
@@ -141,17 +145,20 @@ namespace kedge
     stored(const Side &side, const Memory &memory);
     bool
     presses() const;
+    ContactPlace<dim>
+    place_of(const Side &side, const Sample &sample, const double dt) const;
     dealii::Point<dim>
     middle(const Side &side, const unsigned int facet) const;
 
-    const ContactParameters parameters;
-    const WallPlane<dim>    plane;
-    const Scheme            scheme;
-    const double            cell_size, alpha;
-    std::vector<Side>       sides;          ///< one per body
-    double                  released  = 0.; ///< energy of samples that no longer look here [J]
-    unsigned int            n_updates = 0;
-    ContactBooks<dim>       books;
+    const ContactParameters        parameters;
+    const WallPlane<dim>           plane;
+    const Scheme                   scheme;
+    const double                   cell_size, alpha;
+    std::vector<Side>              sides;                    ///< one per body
+    std::vector<ContactPlace<dim>> places, committed_places; ///< of the attempt, of the last step
+    double            released  = 0.; ///< energy of samples that no longer look here [J]
+    unsigned int      n_updates = 0;
+    ContactBooks<dim> books;
   };
 } // namespace kedge
 

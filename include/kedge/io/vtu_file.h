@@ -45,6 +45,12 @@ namespace kedge
     void
     add_field(Array array, const std::vector<std::int64_t> &values);
 
+    /** A field on the cells, likewise. */
+    void
+    add_cell_field(Array array, const std::vector<double> &values);
+    void
+    add_cell_field(Array array, const std::vector<std::int64_t> &values);
+
     /** Throws UserError if the file cannot be written. */
     void
     write(const std::filesystem::path &file, const double time) const;
@@ -60,14 +66,29 @@ namespace kedge
       std::uint64_t offset;
     };
 
+    template <typename Number>
+    Block
+    field(Array array, const std::vector<Number> &values);
     Block
     append(const Array &array, const void *values, const std::size_t n_bytes);
 
     std::size_t        n_nodes = 0;
     std::size_t        n_cells = 0;
-    std::vector<Block> nodes, cells, fields;
+    std::vector<Block> nodes, cells, fields, cell_fields;
     std::string        appended;
   };
+
+  /** x, y, z of vectors side by side, as VTK wants them: z = 0 in 2D. */
+  template <int dim, typename Vector>
+  std::vector<double>
+  with_three_components(const std::vector<Vector> &vectors)
+  {
+    std::vector<double> values(3 * vectors.size(), 0.);
+    for (std::size_t i = 0; i < vectors.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        values[3 * i + d] = vectors[i][d];
+    return values;
+  }
 
   /**
    * Writes @p piece of each rank into a folder inside the run's: STEM.vtu, on

@@ -10,6 +10,7 @@
 #include <kedge/io/points_output.h>
 #include <kedge/io/probe_writer.h>
 #include <kedge/io/run_folder.h>
+#include <kedge/io/surface_output.h>
 #include <kedge/simulation/step.h>
 #include <kedge/time_integration/clock.h>
 
@@ -46,7 +47,8 @@ namespace kedge
     void
     write_rejected(const std::uint64_t step, const double time, const NewtonReport &report);
 
-    /** Pictures of the points, and of the grid, if they are due or forced. Collective. */
+    /** Pictures of the points, of the grid and of surfaces in contact, if they are due or forced.
+     * Collective. */
     void
     write_points(const Clock &clock, const bool force);
 
@@ -72,6 +74,8 @@ namespace kedge
     write_probes(const double time);
     void
     write_grid(const double time);
+    void
+    write_surfaces(const double time);
     /** Whether pictures are due; sets the time of the next ones. */
     bool
     is_due(const Clock &clock);
@@ -80,15 +84,16 @@ namespace kedge
     Step<dim>       &step;
     const RunFolder &folder;
 
-    std::unique_ptr<HistoryWriter>     history;
-    std::unique_ptr<ProbeWriter<dim>>  probes;
-    std::unique_ptr<PointsOutput<dim>> points;
-    std::unique_ptr<GridOutput<dim>>   grid;
-    std::unique_ptr<NewtonLog>         newton;
-    std::unique_ptr<AuditWriter<dim>>  audit;
-    double                             next_time; ///< of pictures [s]
-    std::optional<std::uint64_t>       last_step; ///< of the last picture
-    PhaseTime                          spent;
+    std::unique_ptr<HistoryWriter>      history;
+    std::unique_ptr<ProbeWriter<dim>>   probes;
+    std::unique_ptr<PointsOutput<dim>>  points;
+    std::unique_ptr<GridOutput<dim>>    grid;
+    std::unique_ptr<SurfaceOutput<dim>> surfaces;
+    std::unique_ptr<NewtonLog>          newton;
+    std::unique_ptr<AuditWriter<dim>>   audit;
+    double                              next_time; ///< of pictures [s]
+    std::optional<std::uint64_t>        last_step; ///< of the last picture
+    PhaseTime                           spent;
   };
 } // namespace kedge
 
