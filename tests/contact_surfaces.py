@@ -6,7 +6,8 @@ Of each output time: the forces of the facets of the first body, and those again
 second body's, add up to contact_force of history.csv, which is summed elsewhere: to round-off,
 1e-12 of the forces' size. The pressure is the other way to the same number: pressure times length
 over the facets of both sides, each of which bears half, is the size of the force where the contact
-is flat and frictionless: to 1e-3, the squares of the angles there. Friction is told by the states.
+is flat and frictionless: to the strain of the surface, by which facets are shorter than at the start, for which
+they bear: (1 + nu)(1 - 2 nu) p/E, at most 5e-3. Friction is told by the states.
 """
 import csv
 import shutil
@@ -47,7 +48,7 @@ class Pictures:
     def compare_forces(self, pair, first):
         """The sums over facets against the books; the number of pictures that press."""
         n_pressed = 0
-        for row, _, fields in self.pictures:
+        for row, _, fields in self.pictures[1:]: # facets show a step; there was none before
             on_first = np.where(fields["body"] == first, 1.0, -1.0)
             force = (on_first * fields["contact_force"]).sum(axis=0)
             size = np.abs(fields["contact_force"]).sum()
@@ -77,7 +78,7 @@ def main():
     length = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
     load = 0.5 * np.sum(fields["contact_pressure"][:, 0] * length)
     print("pressure times length", load, "force", row["contact_force_y_line"])
-    if not abs(load / row["contact_force_y_line"] - 1) < 1e-3:
+    if not abs(load / row["contact_force_y_line"] - 1) < 5e-3:
         fail("the pressures do not add up to the force")
     pressed = fields["contact_pressure"][:, 0] > 0
     if not (np.all(fields["state"][pressed] == SLIDES) and

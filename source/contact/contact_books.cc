@@ -95,10 +95,11 @@ namespace kedge
       return ledger.declare(contact_column(what, unit, kind, pair));
     };
     resultant.declare(ledger, pair);
-    columns.area     = of_pair("area", dim == 3 ? "m^2" : "m", Kind::of_step);
-    columns.pressure = of_pair("pressure", "Pa", Kind::highest);
-    columns.overlap  = of_pair("overlap", "m", Kind::highest);
-    columns.duration = of_pair("duration", "s", Kind::total);
+    columns.area       = of_pair("area", dim == 3 ? "m^2" : "m", Kind::of_step);
+    columns.stick_area = of_pair("stick_area", dim == 3 ? "m^2" : "m", Kind::of_step);
+    columns.pressure   = of_pair("pressure", "Pa", Kind::highest);
+    columns.overlap    = of_pair("overlap", "m", Kind::highest);
+    columns.duration   = of_pair("duration", "s", Kind::total);
   }
 
 
@@ -111,7 +112,7 @@ namespace kedge
                           const double                          dt,
                           const Lattice<dim>                   &lattice) const
   {
-    double area = 0., overlap = 0., friction = 0.;
+    double area = 0., stick_area = 0., overlap = 0., friction = 0.;
 
     typename ResultantBooks<dim>::Sum                      sum;
     std::map<LatticeIndex<dim>, std::pair<double, double>> load_and_area;
@@ -122,6 +123,7 @@ namespace kedge
         if (!(place.pressure > 0.))
           continue;
         area += place.area;
+        stick_area += place.sticks ? place.area : 0.;
         auto &of_cell = load_and_area[lattice.cell_of(place.at)];
         of_cell.first += place.area * place.pressure;
         of_cell.second += place.area;
@@ -136,6 +138,7 @@ namespace kedge
     ledger.book(columns.released, released);
     ledger.book(columns.friction, friction);
     ledger.book(columns.area, area);
+    ledger.book(columns.stick_area, stick_area);
     ledger.book(columns.pressure, pressure);
     ledger.book(columns.overlap, overlap);
     ledger.book(columns.duration, area > 0. ? dt : 0.);

@@ -101,6 +101,19 @@ namespace kedge
 
 
   template <int dim>
+  double
+  violation(const ContactLaw             &law,
+            const double                  multiplier,
+            const dealii::Tensor<1, dim> &slip_n,
+            const ContactResponse<dim>   &response)
+  {
+    const double gap = std::abs(response.pressure - multiplier) / law.normal_stiffness;
+    return response.sticks ? std::max(gap, (response.slip_end - slip_n).norm()) : gap;
+  }
+
+
+
+  template <int dim>
   dealii::Tensor<2, dim>
   stiffness_when_closed(const ContactLaw &law, const dealii::Tensor<1, dim> &normal)
   {
@@ -151,6 +164,16 @@ namespace kedge
                    const dealii::Tensor<1, 3> &,
                    const double,
                    const dealii::Tensor<1, 3> &);
+  template double
+  violation(const ContactLaw &,
+            const double,
+            const dealii::Tensor<1, 2> &,
+            const ContactResponse<2> &);
+  template double
+  violation(const ContactLaw &,
+            const double,
+            const dealii::Tensor<1, 3> &,
+            const ContactResponse<3> &);
   template dealii::Tensor<2, 2>
   stiffness_when_closed(const ContactLaw &, const dealii::Tensor<1, 2> &);
   template dealii::Tensor<2, 3>

@@ -270,29 +270,32 @@ namespace kedge
 
 
 
-  /** Uzawa's step; false if all closed samples have small gaps. */
+  /** Uzawa's step; false if no closed sample has a large gap and none that sticks creeps. */
   template <int dim>
   bool
   ContactTerm<dim>::update_multipliers()
   {
-    double                                      largest = 0.; // violation [m]
-    std::vector<std::map<unsigned int, double>> pressures;
+    using Multipliers = typename SurfaceSamples<dim>::Multipliers;
+    double                                           largest = 0.; // violation [m]
+    std::vector<std::map<unsigned int, Multipliers>> multipliers;
     for (const auto &half : passes)
       {
-        pressures.emplace_back();
+        multipliers.emplace_back();
         for (const auto &sample : half.samples())
           {
-            const double p = half.response(sample).pressure;
+            const ContactResponse<dim> here = half.response(sample);
             largest =
-              std::max(largest, std::abs(p - sample.multiplier) / half.law.normal_stiffness);
-            if (p > 0.)
-              pressures.back()[sample.facet] = p;
+              std::max(largest, violation(half.law, sample.multiplier, sample.slip_n, here));
+            if (here.pressure > 0.)
+              multipliers.back()[sample.facet] = {here.pressure,
+                                                  here.slip_end,
+                                                  sample.partner.normal};
           }
       }
     if (largest <= smallest_gap * cell_size || n_updates == most_updates)
       return false;
     for (std::size_t k = 0; k < passes.size(); ++k)
-      passes[k].set_multipliers(pressures[k]);
+      passes[k].set_multipliers(multipliers[k]);
     ++n_updates;
     return true;
   }

@@ -117,10 +117,10 @@ namespace kedge
   void
   SurfaceSamples<dim>::find_anew()
   {
-    std::map<unsigned int, double> multipliers;
+    std::map<unsigned int, Multipliers> multipliers;
     for (const Sample &sample : samples_)
       if (sample.multiplier > 0.)
-        multipliers[sample.facet] = sample.multiplier;
+        multipliers[sample.facet] = {sample.multiplier, sample.slip_n, sample.partner.normal};
     find();
     set_multipliers(multipliers);
   }
@@ -221,12 +221,16 @@ namespace kedge
 
   template <int dim>
   void
-  SurfaceSamples<dim>::set_multipliers(const std::map<unsigned int, double> &values)
+  SurfaceSamples<dim>::set_multipliers(const std::map<unsigned int, Multipliers> &values)
   {
     for (Sample &sample : samples_)
       {
         const auto found  = values.find(sample.facet);
-        sample.multiplier = found == values.end() ? 0. : found->second;
+        sample.multiplier = 0.;
+        if (found == values.end())
+          continue;
+        sample.multiplier = found->second.pressure;
+        sample.slip_n     = turned(found->second.slip, found->second.normal, sample.partner.normal);
       }
   }
 

@@ -209,7 +209,8 @@ namespace kedge
 
 
 
-  /** Uzawa's step at rest; false if all closed samples have small gaps. */
+  /** Uzawa's step at rest; false if no closed sample has a large gap and none that sticks creeps.
+   */
   template <int dim>
   bool
   WallTerm<dim>::refresh(const Trial<dim> &trial)
@@ -217,24 +218,29 @@ namespace kedge
     if (scheme.dynamic || n_updates == most_updates)
       return false;
     move(trial);
-    std::vector<std::vector<double>> pressures;
-    double                           largest = 0.; // [m]
+    std::vector<std::vector<ContactResponse<dim>>> responses;
+    double                                         largest = 0.; // [m]
     for (const Side &side : sides)
       {
-        pressures.emplace_back();
+        responses.emplace_back();
         for (const Sample &sample : side.samples)
           {
-            pressures.back().push_back(response(side, sample).pressure);
+            responses.back().push_back(response(side, sample));
             largest = std::max(largest,
-                               std::abs(pressures.back().back() - sample.start.multiplier) /
-                                 side.law.normal_stiffness);
+                               violation(side.law,
+                                         sample.start.multiplier,
+                                         sample.start.slip,
+                                         responses.back().back()));
           }
       }
     if (largest <= smallest_gap * cell_size)
       return false;
     for (std::size_t k = 0; k < sides.size(); ++k)
       for (std::size_t n = 0; n < sides[k].samples.size(); ++n)
-        sides[k].samples[n].start.multiplier = pressures[k][n];
+        {
+          sides[k].samples[n].start.multiplier = responses[k][n].pressure;
+          sides[k].samples[n].start.slip       = responses[k][n].slip_end;
+        }
     ++n_updates;
     return true;
   }

@@ -43,12 +43,6 @@ namespace kedge
         allow.truth(),
         "Whether the cells in use are written too, as grid.pvd, with the Fields as means at "
         "the nodes: smooth where those of the points speckle."},
-       {"Surfaces",
-        "true",
-        allow.truth(),
-        "Whether the surfaces of bodies in contact are written too, as surfaces.pvd, with "
-        "pressures, forces, gaps, slip and partners of their facets. Only contacts with "
-        "Method = surface points have them."},
        {"Checkpoint every steps",
         "0",
         allow.whole_number(0),

@@ -263,7 +263,6 @@ namespace kedge
       output.vtu                    = has("vtu");
       output.hdf5                   = has("hdf5");
       output.grid                   = section.truth("Grid");
-      output.surfaces               = section.truth("Surfaces");
       output.checkpoint_every_steps = section.whole_number("Checkpoint every steps");
       output.checkpoint_interval    = section.number("Checkpoint interval");
       output.progress_interval      = section.number("Progress interval");

@@ -341,12 +341,11 @@ namespace kedge
               std::vector<WallBody<dim>> touching;
               for (const std::string &first : contact.first)
                 touching.push_back(wall_body_of(*surfaces.at(first), scene, bodies, contact, h));
-              shown_contacts.push_back(&add_term(
-                std::make_unique<WallTerm<dim>>(contact,
-                                                plane_of(contact, points.grid().lattice()),
-                                                touching,
-                                                scheme,
-                                                h)));
+              add_term(std::make_unique<WallTerm<dim>>(contact,
+                                                       plane_of(contact, points.grid().lattice()),
+                                                       touching,
+                                                       scheme,
+                                                       h));
               continue;
             }
           std::vector<ContactBodies<dim>> pairs;
@@ -354,8 +353,7 @@ namespace kedge
             for (const std::string &second : contact.second)
               pairs.push_back(
                 contact_of(*surfaces.at(first), *surfaces.at(second), scene, bodies, contact, h));
-          shown_contacts.push_back(
-            &add_term(std::make_unique<ContactTerm<dim>>(contact, pairs, scheme, h)));
+          add_term(std::make_unique<ContactTerm<dim>>(contact, pairs, scheme, h));
         }
       else if (is_nodal(contact.method))
         choose_nodal_contact_term(contact);

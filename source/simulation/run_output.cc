@@ -34,6 +34,18 @@ namespace kedge
         }
     }
 
+    /** The terms that have surfaces in contact to show. */
+    template <int dim>
+    std::vector<const ShownContact<dim> *>
+    shown_contacts(const Terms<dim> &terms)
+    {
+      std::vector<const ShownContact<dim> *> result;
+      for (const auto &term : terms)
+        if (const auto *contact = dynamic_cast<const ShownContact<dim> *>(term.get()))
+          result.push_back(contact);
+      return result;
+    }
+
     /** The points that the scene's probes follow. */
     template <int dim>
     std::vector<Probe>
@@ -138,7 +150,7 @@ namespace kedge
     points  = std::make_unique<PointsOutput<dim>>(folder, scene.output, n_written("points"));
     if (scene.output.grid)
       grid = std::make_unique<GridOutput<dim>>(folder, n_written("grid"));
-    if (scene.output.surfaces && !model.shown_contacts.empty())
+    if (!shown_contacts(model.terms).empty())
       surfaces = std::make_unique<SurfaceOutput<dim>>(folder, n_written("surfaces"));
     if (scene.newton.log)
       newton = std::make_unique<NewtonLog>(folder, position("newton"));
@@ -285,7 +297,7 @@ namespace kedge
     if (!surfaces)
       return;
     ContactPicture<dim> picture;
-    for (const ShownContact<dim> *contact : model.shown_contacts)
+    for (const ShownContact<dim> *contact : shown_contacts(model.terms))
       contact->show(picture);
     surfaces->write(time, picture);
   }

@@ -95,7 +95,7 @@ namespace kedge
   private:
     struct Columns
     {
-      Ledger::Index energy, friction, released, area, pressure, overlap, duration;
+      Ledger::Index energy, friction, released, area, stick_area, pressure, overlap, duration;
     };
 
     Columns             columns{};

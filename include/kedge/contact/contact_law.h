@@ -75,6 +75,17 @@ namespace kedge
                    const double                  multiplier,
                    const dealii::Tensor<1, dim> &D);
 
+  /**
+   * By how far multipliers of a place at rest (a pressure, and the slip of what sticks) are not
+   * those of its answer: its gap, or by how much it creeps [m].
+   */
+  template <int dim>
+  double
+  violation(const ContactLaw             &law,
+            const double                  multiplier,
+            const dealii::Tensor<1, dim> &slip_n,
+            const ContactResponse<dim>   &response);
+
   /** d traction / dD of a place that is closed and sticks. */
   template <int dim>
   dealii::Tensor<2, dim>

@@ -63,6 +63,15 @@ namespace kedge
       dealii::Tensor<1, dim> normal;
     };
 
+    /** What Uzawa's iteration has found for a sample at rest: what presses it, and the slip that
+     * holds it, as if it stretched a spring of the law's stiffness. */
+    struct Multipliers
+    {
+      double                 pressure; ///< [Pa]
+      dealii::Tensor<1, dim> slip;     ///< [m]
+      dealii::Tensor<1, dim> normal;   ///< across which the slip is
+    };
+
     /** What became of a sample. */
     struct Outcome
     {
@@ -108,9 +117,9 @@ namespace kedge
       samples_.swap(others);
     }
 
-    /** Takes multipliers, for the facets that are not named 0. */
+    /** Takes multipliers by facet; what is not named has no pressure. */
     void
-    set_multipliers(const std::map<unsigned int, double> &values);
+    set_multipliers(const std::map<unsigned int, Multipliers> &values);
 
     const std::vector<Sample> &
     samples() const

@@ -28,10 +28,9 @@ namespace kedge
     bool                     vtu                    = true;
     bool                     hdf5                   = false;
     bool                     grid                   = false;
-    bool                     surfaces               = true; ///< of bodies in contact
-    unsigned int             checkpoint_every_steps = 0;    ///< 0: off
-    double                   checkpoint_interval    = 600;  ///< wall seconds; 0: off
-    double                   progress_interval      = 1;    ///< wall seconds between lines
+    unsigned int             checkpoint_every_steps = 0;   ///< 0: off
+    double                   checkpoint_interval    = 600; ///< wall seconds; 0: off
+    double                   progress_interval      = 1;   ///< wall seconds between lines
   };
 
   /** What a check makes of the values of a column. */

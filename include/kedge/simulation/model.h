@@ -14,8 +14,6 @@ namespace kedge
   struct NodalLaw;
   template <int dim>
   struct ContactFields;
-  template <int dim>
-  class ShownContact;
 
   /**
    * What a scene is made of: the points on their grid, the fields, the terms of the
@@ -63,7 +61,6 @@ namespace kedge
     PointsOnGrid<dim>                        points;
     std::vector<std::unique_ptr<Field<dim>>> fields;
     Terms<dim>                               terms;
-    std::vector<const ShownContact<dim> *>   shown_contacts; ///< terms of which pictures are made
     Unknowns<dim>                            unknowns;
     Ledger                                   ledger;
     /** Part of the step at whose end prescribed pressures are taken. */
