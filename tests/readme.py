@@ -73,6 +73,18 @@ def test_first_run(readme):
         demand(change <= 2 * stated, f"the {name} changes by {change:.1e}, not by {stated:.1e}")
 
 
+def test_points_of_the_ball(readme):
+    """How many there are, and that they weigh what the ball weighs."""
+    done = subprocess.run([KEDGE, ROOT / "prm/quickstart.prm", "--validate"], capture_output=True,
+                          text=True, check=True)
+    number = re.search(r"ball, (\d+) material points", done.stdout)[1]
+    off = float(re.search(r"volume: +ball.*\((\S+) %\)", done.stdout)[1]) / 100
+    words = " ".join(readme.split())
+    demand(f"its {number} material points" in words, f"the ball has {number} material points")
+    stated = float(re.search(r"weighs to (\d+)·10⁻¹⁵ of it", words)[1]) * 1e-15
+    demand(abs(off) <= 2 * stated, f"the points' volume is off by {off:.1e}, not by {stated:.1e}")
+
+
 def test_clock(readme):
     """Times of a quiet machine; this one may be loaded, so that only their order is compared."""
     stated = float(re.search(r"Newton iterations, ([\d.]+) s", readme)[1])
@@ -104,6 +116,7 @@ def main():
     OUTPUT.mkdir(parents=True)
     readme = (ROOT / "README.md").read_text("utf-8")
     test_first_run(readme)
+    test_points_of_the_ball(readme)
     test_clock(readme)
     test_speed(readme)
     print("the README says what is true")

@@ -88,7 +88,9 @@ kedge_add_scene_test(refusal.where_holds_nothing prm/patch_oblique.prm
 kedge_add_scene_test(scene.dead_load_tension prm/dead_load_tension.prm COMPARE_RANKS 1e-7)
 # what moves a body goes with it: uniform stress under platens through 25 cells, at any place
 # (on two ranks by the scenes' own checks: reactions of 0 are round-off, which cannot be compared)
-kedge_add_scene_test(scene.pressed_by_condition prm/pressed_by_condition.prm)
+# (its faces are as long as the block is wide: 1.07 m)
+kedge_add_scene_test(scene.pressed_by_condition prm/pressed_by_condition.prm
+  EXPECT_STDOUT "upper .'block', top, .y.: [0-9]+ faces of material points, 1.07 m long")
 kedge_add_scene_test(scene.pressed_by_condition.ranks prm/pressed_by_condition.prm RANKS 2)
 kedge_add_scene_test(scene.pressed_by_condition.elsewhere prm/pressed_by_condition.prm
   SET "Constants/shift = 0.87" "Constants/steps = 20" "Bodies/block/Points per cell = 3")

@@ -45,8 +45,14 @@ namespace kedge
     VolumeMoments<dim> sum;
     for (const auto &point : points)
       if (point.body == body)
-        sum.add(VolumeMoments<dim>::of_box(point.half_lengths)
-                  .about(-1. * dealii::Tensor<1, dim>(point.location)));
+        {
+          // the domain of a cut point may be smaller than what it stands for: it ends with its cell
+          auto         moments = VolumeMoments<dim>::of_box(point.half_lengths);
+          const double part    = point.volume / moments.volume;
+          moments.volume *= part;
+          moments.second *= part;
+          sum.add(moments.about(-1. * dealii::Tensor<1, dim>(point.location)));
+        }
     return sum;
   }
 

@@ -60,6 +60,54 @@ namespace kedge
                                   : ""));
     }
 
+    /** How many faces each body condition holds, where the middles of the faces are, and their
+     * size. */
+    template <int dim>
+    void
+    describe_body_conditions(const Model<dim> &model, std::ostream &out)
+    {
+      for (const auto &condition : model.scene.body_conditions)
+        {
+          if (condition.side >= 2 * dim)
+            continue;
+          const std::string what =
+            "  Body conditions/" + condition.name + " ('" + condition.body + "', ";
+          if (condition.section)
+            {
+              out << what << "section "
+                  << "xyz"[condition.side / 2] << " = " << *condition.section << " m)\n";
+              continue;
+            }
+          const Expression where(condition.where.empty() ? "1" : condition.where,
+                                 {"x", "y", "z", "nx", "ny", "nz"},
+                                 model.scene.constants);
+          const auto   direction = static_cast<int>(condition.side / 2);
+          const double sign      = condition.side % 2 == 0 ? -1. : 1.;
+          unsigned int n         = 0;
+          double       area      = 0.;
+          for (const auto &point : model.generated_points())
+            {
+              if (model.bodies.names[point.body] != condition.body ||
+                  ((point.exposed_sides >> condition.side) & 1u) == 0)
+                continue;
+              double values[6] = {0., 0., 0., 0., 0., 0.}, size = 1.;
+              for (int d = 0; d < dim; ++d)
+                {
+                  values[d] = point.location[d];
+                  size *= d == direction ? 1. : 2. * point.half_lengths[d];
+                }
+              values[direction] += sign * point.half_lengths[direction];
+              values[3 + direction] = sign;
+              if (where(values) == 0.)
+                continue;
+              ++n;
+              area += size;
+            }
+          out << what << side_name(condition.side) << "): " << n << " faces of material points, "
+              << area << (dim == 2 ? " m long\n" : " m^2\n");
+        }
+    }
+
     /** Notes conditions whose nodes stand still while what they move leaves them behind. */
     template <int dim>
     void
@@ -209,6 +257,7 @@ namespace kedge
     if (!hint.empty())
       out << "  note: " << hint << "\n";
     describe_conditions(model, out);
+    describe_body_conditions(model, out);
     describe_travel(model, out);
     describe_places(model, out);
     describe_loads(model, step, out);
