@@ -438,6 +438,10 @@ kedge_add_test(first_hour LABELS scene refusal
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/first_hour.py
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/first_hour)
 
+# HDF5 is written without a word of Open MPI's
+kedge_add_scene_test(scene.hdf5_in_silence tests/scenes/bad_input/good.prm
+  SET "Output/Formats = hdf5" EXPECT_STDOUT "finished at t = 1 s" EXPECT_STDERR "^$")
+
 # --- Random and damaged scenes: two minutes here, longer by hand -----------------
 set(fuzz_options --cases 160 --seconds 120)
 if(KEDGE_SANITIZE)

@@ -24,5 +24,8 @@ namespace kedge
     // a folder in /tmp shared by all processes of a user: those that start as
     // another ends may find it gone, and fail
     setenv("OMPI_MCA_orte_create_session_dirs", "0", keep_what_is_set);
+    // a file pointer shared in that folder, which HDF5 does not need: without the folder Open MPI
+    // complains of every file
+    setenv("OMPI_MCA_sharedfp", "^sm", keep_what_is_set);
   }
 } // namespace kedge
