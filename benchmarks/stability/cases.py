@@ -1,5 +1,6 @@
 """The matrix of the stability bench: small hard scenes, each with its settings."""
 from case import BASES, SHIFTS, Case, basis, constants
+from contact_cases import contact_cases
 from saturated_cases import saturated_cases
 
 
@@ -107,4 +108,4 @@ def all_cases():
     """Every case of the bench, in order."""
     parts = [shifts_and_points, steps_and_compressibility, aspects, in_3d, violence,
              unlike_neighbours, endurance]
-    return [case for part in parts for case in part()] + saturated_cases()
+    return [case for part in parts for case in part()] + contact_cases() + saturated_cases()

@@ -31,7 +31,8 @@ LEAST_ENERGY = 1e-6  # [J] below, energies are round-off of a rigid motion
 LARGEST_MASS_ERROR = 1e-10
 LARGEST_MOMENTUM_ERROR = 0.01  # see doc/stability.md
 ENERGIES = ["kinetic_energy", "strain_energy", "hardening_energy", "plastic_dissipation",
-            "stabilisation_energy", "external_work", "fluid_energy", "darcy_dissipation"]
+            "stabilisation_energy", "external_work", "fluid_energy", "darcy_dissipation",
+            "contact_energy", "friction_dissipation"]
 COLUMNS = ["group", "case", "ended", "steps", "rejected", "newton_per_step", "energy_error",
            "mass_error", "momentum_error", "least_det_F", "condition", "seconds", "sound", "cause"]
 
