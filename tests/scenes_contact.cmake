@@ -71,3 +71,7 @@ kedge_add_scene_test(scene.cattaneo_mindlin.nearly_sliding prm/cattaneo_mindlin.
 kedge_add_scene_test(scene.prism_sliding prm/prism_sliding.prm)
 kedge_add_scene_test(scene.ball_and_ring prm/ball_and_ring.prm
   SET "Output/Points interval = 0")
+kedge_add_scene_test(scene.prisms_nodes.ray_tracing prm/prisms_nodes.prm
+  SET "Contact/prisms/Method = ray tracing")
+kedge_add_scene_test(scene.block_on_incline.ray_tracing prm/block_on_incline.prm
+  SET "Contact/sole/Method = ray tracing")

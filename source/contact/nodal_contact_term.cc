@@ -4,6 +4,24 @@
 
 namespace kedge
 {
+  template <int dim>
+  bool
+  is_free(const ContactFields<dim>          &fields,
+          const std::array<unsigned int, 2> &node,
+          const unsigned int                 component)
+  {
+    bool result = false;
+    for (unsigned int k = 0; k < 2; ++k)
+      fields.patch[k]->constraints.for_free(node[k],
+                                            component,
+                                            [&](const unsigned int, const double) {
+                                              result = true;
+                                            });
+    return result;
+  }
+
+
+
   namespace
   {
     /** Sums of gradients that cancel but for this part have no direction; nor has a shorter n. */
@@ -56,23 +74,6 @@ namespace kedge
         result[d] = sum[d];
       const double size = result.norm();
       return size > no_direction * sum[dim] ? result / size : dealii::Tensor<1, dim>();
-    }
-
-    /** Whether a component of either field depends on unknowns. */
-    template <int dim>
-    bool
-    is_free(const ContactFields<dim>          &fields,
-            const std::array<unsigned int, 2> &node,
-            const unsigned int                 component)
-    {
-      bool result = false;
-      for (unsigned int k = 0; k < 2; ++k)
-        fields.patch[k]->constraints.for_free(node[k],
-                                              component,
-                                              [&](const unsigned int, const double) {
-                                                result = true;
-                                              });
-      return result;
     }
 
     /** Sets the directions from a vector along the normal; false if there is none. */
@@ -267,6 +268,10 @@ namespace kedge
 
   template class NodalContactTerm<2>;
   template class NodalContactTerm<3>;
+  template bool
+  is_free(const ContactFields<2> &, const std::array<unsigned int, 2> &, const unsigned int);
+  template bool
+  is_free(const ContactFields<3> &, const std::array<unsigned int, 2> &, const unsigned int);
   template std::vector<ContactNode<2>>
   find_contact_nodes(const ContactFields<2> &, const bool);
   template std::vector<ContactNode<3>>

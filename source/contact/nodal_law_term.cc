@@ -14,7 +14,7 @@ namespace kedge
     , has_multipliers(parameters.method == ContactMethod::augmented_lagrangian ||
                       parameters.method == ContactMethod::lagrange_multipliers)
     , opens_by_gap(parameters.method != ContactMethod::lagrange_multipliers)
-    , per_node(law.friction > 0. ? dim : 1)
+    , multipliers(fields.number, law.friction > 0. ? dim : 1)
   {}
 
 
@@ -23,8 +23,8 @@ namespace kedge
   void
   NodalLawTerm<dim>::declare_unknowns(Unknowns<dim> &unknowns)
   {
-    this->unknowns              = &unknowns;
-    unknowns.traits.multipliers = unknowns.traits.multipliers || has_multipliers;
+    if (has_multipliers)
+      multipliers.declare(unknowns);
   }
 
 
@@ -33,18 +33,8 @@ namespace kedge
   void
   NodalLawTerm<dim>::reach(const unsigned int field, std::vector<unsigned char> &reached)
   {
-    if (!has_multipliers)
-      return;
-    for (unsigned int k = 0; k < 2; ++k)
-      if (field == this->fields.number[k])
-        reached_nodes[k] = reached;
-    if (field != std::max(this->fields.number[0], this->fields.number[1]))
-      return;
-    std::size_t n_common = 0;
-    for (std::size_t i = 0; i < reached.size(); ++i)
-      n_common += reached_nodes[0][i] != 0 && reached_nodes[1][i] != 0;
-    while (unknown.size() < n_common * per_node)
-      unknown.push_back(unknowns->add_others(1));
+    if (has_multipliers)
+      multipliers.reach(field, reached);
   }
 
 
@@ -68,7 +58,7 @@ namespace kedge
     dealii::Tensor<1, dim>  multiplier;
     if (has_multipliers)
       for (unsigned int i = 0; i < here.n_directions; ++i)
-        multiplier[i] = law.stiffness * trial.unknowns.others[unknown[node * per_node + i]];
+        multiplier[i] = law.stiffness * trial.unknowns.others[multipliers.number(node, i)];
     return function(law,
                     here.n_directions,
                     multiplier,
@@ -139,7 +129,7 @@ namespace kedge
         if (!opens_by_gap && states[n].n_openings > most_openings)
           return parting(n);
         for (unsigned int i = 0; has_multipliers && i < this->nodes()[n].n_directions; ++i)
-          residual.others()[unknown[n * per_node + i]] += here.constraint[i];
+          residual.others()[multipliers.number(n, i)] += here.constraint[i];
       }
     return NodalContactTerm<dim>::add_residual(trial, residual);
   }
@@ -183,7 +173,7 @@ namespace kedge
   void
   NodalLawTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    std::vector<bool> is_used(unknown.size(), false);
+    std::vector<bool> is_used(multipliers.size(), false);
     for (std::size_t n = 0; n < this->nodes().size(); ++n)
       {
         const ContactNode<dim>  &node = this->nodes()[n];
@@ -196,15 +186,11 @@ namespace kedge
         this->add_slope(node, node, slope, tangent);
         for (unsigned int i = 0; has_multipliers && i < node.n_directions; ++i)
           {
-            is_used[n * per_node + i] = true;
+            is_used[n * multipliers.per_node + i] = true;
             add_multiplier(n, i, here, tangent);
           }
       }
-    for (std::size_t k = 0; k < unknown.size(); ++k)
-      if (!is_used[k])
-        tangent.add(UnknownIndex::other(unknown[k]),
-                    UnknownIndex::other(unknown[k]),
-                    law.stiffness);
+    multipliers.hold_unused(is_used, law.stiffness, tangent);
   }
 
 

@@ -40,7 +40,17 @@ namespace kedge
                                       {"lagrange multipliers", ContactMethod::lagrange_multipliers},
                                       {"penalty", ContactMethod::penalty},
                                       {"non-linear penalty", ContactMethod::nonlinear_penalty},
-                                      {"contact velocity", ContactMethod::contact_velocity}};
+                                      {"contact velocity", ContactMethod::contact_velocity},
+                                      {"ray tracing", ContactMethod::ray_tracing}};
+
+    std::vector<std::string>
+    method_names()
+    {
+      std::vector<std::string> names;
+      for (const auto &known : methods)
+        names.emplace_back(known.name);
+      return names;
+    }
 
     /** Of methods at nodes: r over the sum of Young's moduli, as in the thesis. */
     constexpr double nodal_penalty_factor = 5.;
@@ -70,7 +80,8 @@ namespace kedge
           method == ContactMethod::contact_velocity)
         refuse("Penalty factor", text + " has no penalty. Leave one of the two out.");
       if (method != ContactMethod::augmented_lagrangian && method != ContactMethod::penalty &&
-          !section.is_empty("Friction coefficient") && section.number("Friction coefficient") > 0.)
+          method != ContactMethod::ray_tracing && !section.is_empty("Friction coefficient") &&
+          section.number("Friction coefficient") > 0.)
         refuse("Friction coefficient",
                text + " knows contact without friction only. Take 0, or another method.");
     }
@@ -174,18 +185,11 @@ namespace kedge
         "point."},
        {"Method",
         "",
-        allow
-          .one_of({"none",
-                   "surface points",
-                   "augmented lagrangian",
-                   "lagrange multipliers",
-                   "penalty",
-                   "non-linear penalty",
-                   "contact velocity"})
-          .or_empty(),
+        allow.one_of(method_names()).or_empty(),
         "How the groups act on each other: none lets them pass through each other; surface "
         "points finds contact at points of their surfaces and keeps the books of energy. The "
-        "others are those of Pretti (2024), chapter 5, at the nodes that both groups have: "
+        "others are those of Pretti (2024), chapter 5, at the nodes that both groups have, and "
+        "ray tracing from the faces of the first group's cells: "
         "bodies then touch from up to a cell away. "
         "Empty: surface points if one of the entries below is given, else none."},
        {"Friction coefficient",

@@ -3,6 +3,7 @@
 #include <kedge/contact/contact_term.h>
 #include <kedge/contact/contact_velocity_term.h>
 #include <kedge/contact/nodal_law_term.h>
+#include <kedge/contact/ray_contact_term.h>
 #include <kedge/contact/wall_term.h>
 #include <kedge/porous/outflow_term.h>
 #include <kedge/porous/porous_ghost_term.h>
@@ -402,6 +403,17 @@ namespace kedge
                                 const NodalLaw           &law,
                                 const ContactFields<dim> &pair)
   {
+    if (contact.method == ContactMethod::ray_tracing)
+      {
+        // r of a surface: the force at a node over the part of the surface that it has
+        const double h =
+          points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
+        add_term(std::make_unique<RayContactTerm<dim>>(
+          contact.name,
+          pair,
+          RayLaw{law.stiffness / (dim == 3 ? h * h : h), contact.friction, law.alpha}));
+        return;
+      }
     if (contact.method != ContactMethod::contact_velocity)
       {
         add_term(std::make_unique<NodalLawTerm<dim>>(contact, pair, law));

@@ -63,6 +63,13 @@ namespace kedge
   std::vector<ContactNode<dim>>
   find_contact_nodes(const ContactFields<dim> &fields, const bool along_surface);
 
+  /** Whether a component of either field at a common node depends on unknowns. */
+  template <int dim>
+  bool
+  is_free(const ContactFields<dim>          &fields,
+          const std::array<unsigned int, 2> &node,
+          const unsigned int                 component);
+
   /**
    * Contact at common nodes of the grid, as in Pretti (2024), section 5.3.1.1: the nodes that both
    * fields have at the start of a step are pairs, and a law gives the force F on the first

@@ -1,7 +1,7 @@
 #ifndef kedge_contact_nodal_law_term_h
 #define kedge_contact_nodal_law_term_h
 
-#include <kedge/contact/nodal_contact_term.h>
+#include <kedge/contact/multiplier_pool.h>
 #include <kedge/contact/nodal_law.h>
 
 namespace kedge
@@ -89,14 +89,11 @@ namespace kedge
     UnknownIndex
     multiplier(const std::size_t node, const unsigned int direction) const
     {
-      return UnknownIndex::other(unknown[node * per_node + direction]);
+      return UnknownIndex::other(multipliers.number(node, direction));
     }
 
-    const unsigned int                        per_node; ///< multipliers
-    Unknowns<dim>                            *unknowns = nullptr;
-    std::array<std::vector<unsigned char>, 2> reached_nodes; ///< of each field, if they matter
-    std::vector<unsigned int>                 unknown;       ///< numbers of all multipliers
-    std::vector<State>                        states;        ///< of the nodes
+    MultiplierPool<dim> multipliers;
+    std::vector<State>  states; ///< of the nodes
   };
 } // namespace kedge
 

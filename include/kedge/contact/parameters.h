@@ -15,7 +15,8 @@ namespace kedge
     lagrange_multipliers,
     penalty,
     nonlinear_penalty,
-    contact_velocity
+    contact_velocity,
+    ray_tracing ///< from the faces of the first group's cells to those of the second
   };
 
   /** Whether a method finds contact at the nodes that the bodies share. */
