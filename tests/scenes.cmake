@@ -80,8 +80,9 @@ kedge_add_scene_test(scene.cooks_membrane prm/cooks_membrane.prm)
 kedge_add_scene_test(scene.lame_sphere prm/lame_sphere.prm)
 kedge_add_scene_test(scene.lame_cylinder_limit prm/lame_cylinder_limit.prm)
 kedge_add_scene_test(scene.turning_under_pressure tests/scenes/turning_under_pressure.prm)
-kedge_add_scene_test(refusal.facets_on_ranks prm/patch_oblique.prm RANKS 2 EXPECT_EXIT 1
-  EXPECT_STDERR "oblique or curved.* one process" LABELS refusal)
+# facets on several processes, which share out cells that they run through
+kedge_add_scene_test(scene.patch_oblique.ranks prm/patch_oblique.prm RANKS 2)
+kedge_add_scene_test(scene.lame_sphere.ranks prm/lame_sphere.prm RANKS 2)
 kedge_add_scene_test(refusal.where_holds_nothing prm/patch_oblique.prm
   SET "Tractions/sides/Where = nx > 2" EXPECT_EXIT 1
   EXPECT_STDERR "finds no exposed face" LABELS refusal)
@@ -206,6 +207,18 @@ kedge_add_scene_test(scene.terzaghi.early prm/terzaghi.prm
 # the errors that terzaghi.prm counts for T = 1 are 3.0e-4 and 3.3e-4 here
 kedge_add_scene_test(scene.terzaghi.linear prm/terzaghi.prm
   SET "Constants/T = 0.2" "Constants/tolerance = 8e-4" "Bodies/column/Basis = linear")
+# drained at curved surfaces, a quarter and an eighth of which lie in the grid
+kedge_add_scene_test(scene.drained_cylinder prm/drained_cylinder.prm)
+kedge_add_scene_test(scene.drained_cylinder.ranks prm/drained_cylinder.prm RANKS 2)
+kedge_add_scene_test(scene.drained_sphere prm/drained_sphere.prm)
+kedge_add_scene_test(scene.seepage_face prm/seepage_face.prm COMPARE_RANKS 1e-7)
+# the scene can fail: with water that may come in the second stage is another
+kedge_add_scene_test(scene.seepage_face.both_ways prm/seepage_face.prm
+  SET "Surface pressures/top/Flow = both ways" EXPECT_EXIT 2
+  EXPECT_STDOUT "FAIL nothing comes back" EXPECT_STDERR "^$")
+kedge_add_scene_test(refusal.flow_of_a_surface prm/seepage_face.prm
+  SET "Surface pressures/top/Flow = in" EXPECT_EXIT 1
+  EXPECT_STDERR "Surface pressures/top/Flow" LABELS refusal)
 # badly cut cells at the drained surface: the series with ghosts, with ties, with nothing
 # (strains of 1e-9: the round-off of F, 1e-16, is 1e-7 of them)
 kedge_add_scene_test(scene.terzaghi_cut prm/terzaghi_cut.prm COMPARE_RANKS 1e-5)

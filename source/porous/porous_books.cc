@@ -28,8 +28,8 @@ namespace kedge
          k += dim + 1)
       add(fluid.reference_density * supply[k], unknowns[k]);
     const auto pressures = surfaces.pressures(pressure_time(trial.times));
-    for (unsigned int s = 0; s < outflow.size(); ++s)
-      add(-fluid.reference_density * outflow[s], pressures[s]);
+    for (std::size_t f = 0; f < outflow.size(); ++f)
+      add(-fluid.reference_density * outflow[f], pressures[f]);
     return result;
   }
 

@@ -70,11 +70,10 @@ namespace kedge
       dispatch_pattern<dim>(batch.context.batch.pattern,
                             internal::PorousResidualKernel<dim>{batch, residual, size, status});
       if (status.ok())
-        internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
-          dispatch_pattern<dim>(batch.context.batch.pattern,
-                                internal::SurfaceResidualKernel<dim>{{batch, face},
-                                                                     residual,
-                                                                     outflow});
+        internal::for_faces(batch, [&](const auto &face, const std::size_t number) {
+          dispatch_pattern<dim>(
+            face.face.functions.pattern,
+            internal::SurfaceResidualKernel<dim>{face, residual, outflow[number], status});
         });
       return status.ok();
     });
@@ -93,9 +92,9 @@ namespace kedge
     for_batches(patch, pores, trial, [&](const auto &batch) {
       dispatch_pattern<dim>(batch.context.batch.pattern,
                             internal::PorousTangentKernel<dim>{batch, tangent});
-      internal::for_faces(batch, [&](const SurfacePoint<dim> &face) {
-        dispatch_pattern<dim>(batch.context.batch.pattern,
-                              internal::SurfaceTangentKernel<dim>{{batch, face}, tangent});
+      internal::for_faces(batch, [&](const auto &face, const std::size_t) {
+        dispatch_pattern<dim>(face.face.functions.pattern,
+                              internal::SurfaceTangentKernel<dim>{face, tangent});
       });
       return true;
     });

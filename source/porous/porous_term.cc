@@ -130,6 +130,7 @@ namespace kedge
     pores.reinit(cloud, patch.points, porous_force.scheme());
     surfaces.reinit(cloud, patch);
     fluxes.reinit(cloud, patch);
+    valves.reinit(surfaces.one_way());
     prepared.have_pattern = prepared.have_pattern && !patch.new_pattern();
   }
 
@@ -186,7 +187,8 @@ namespace kedge
   PorousTerm<dim>::start(Trial<dim> &trial)
   {
     prepared.have_values = false;
-    outflow.resize(surfaces.pressures(trial.times.t_n).size());
+    valves.start();
+    outflow.assign(surfaces.points().size(), 0.);
     pressure_mapping.map(patch, pores.pressure, radius, trial.unknowns.fields[field]);
     set_supply(trial.times);
   }
@@ -226,6 +228,7 @@ namespace kedge
             loads.body_acceleration(t_load),
             surfaces.points(),
             surfaces.pressures(t_pressure),
+            valves.flows(),
             parameters.surface_penalty};
   }
 
@@ -279,7 +282,7 @@ namespace kedge
     std::vector<double> &sums = residual.partial(field);
     std::vector<double>  unknowns(sums.size(), 0.);
     pressure_mapping.map(patch, pores.pressure, radius, unknowns);
-    outflow.assign(surfaces.pressures(t).size(), 0.);
+    outflow.assign(surfaces.points().size(), 0.);
     const std::vector<double> at_rest;
     PorousSize                size;
     porous_force
@@ -292,7 +295,36 @@ namespace kedge
   void
   PorousTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
+    if (surfaces.has_one_way() && valves.count_tangent())
+      valves.hold(open_outflow(trial));
     porous_force.add_tangent(patch, pores, at_trial(trial), tangent.lattice(field));
+  }
+
+
+
+  /** What would leave at each place of the surfaces if all seepage faces were open [m^3]. */
+  template <int dim>
+  std::vector<double>
+  PorousTerm<dim>::open_outflow(const Trial<dim> &trial) const
+  {
+    PorousTrial<dim>    at_open = at_trial(trial);
+    std::vector<double> sums(at_open.unknowns.size(), 0.), result(at_open.surface.size());
+    PorousSize          size;
+    std::fill(at_open.surface_flows.begin(), at_open.surface_flows.end(), SurfaceFlow::both_ways);
+    porous_force.add_residual(patch, pores, at_open, sums, result, size);
+    return result;
+  }
+
+
+
+  template <int dim>
+  bool
+  PorousTerm<dim>::refresh(const Trial<dim> &trial)
+  {
+    if (!surfaces.has_one_way() || !valves.may_turn()) // all ranks alike
+      return false;
+    const bool again = valves.hold(open_outflow(trial));
+    return dealii::Utilities::MPI::logical_or(again, patch.nodes.communicator());
   }
 
 

@@ -8,18 +8,42 @@ namespace kedge
   namespace internal
   {
     /**
-     * The part of a face with a prescribed pressure p_s in the balance of
+     * A place on a surface with a prescribed pressure p_s in the balance of
      * volume (Nitsche's method without its adjoint term, which consistency
      * does not need):
-     *   d_A += N_A(face) dt/rho_0 [ q.n + gamma (p(face) - p_s) ] da,
+     *   d_A += N_A(place) dt/rho_0 [ q.n + gamma (p(place) - p_s) ] da,
      *   gamma = penalty kappa_0/(g h).
-     * q is the flow at the point; N_A(face) see functions_at_face().
+     * q is the flow by SurfacePoint::gradients: that of the point whose face it is, or of the
+     * cell that the facet lies in. N_A(place) are SurfacePoint::functions. Of a seepage face
+     * only a positive bracket counts: what leaves.
      */
     template <int dim>
     struct SurfaceKernel
     {
       const PorousBatch<dim>  &b;
       const SurfacePoint<dim> &face;
+      const double             prescribed; ///< p_s [Pa]
+      const SurfaceFlow        flow;
+
+      /** Whether something passes, if @p volume would leave an open place. */
+      bool
+      passes(const double volume) const
+      {
+        return flow == SurfaceFlow::both_ways || (flow == SurfaceFlow::one_way && volume > 0.);
+      }
+
+      /** What would leave an open place. */
+      template <class Values>
+      double
+      volume(const Values &v, const PoreResponse<dim> &r) const
+      {
+        double area[dim];
+        scale_area(v.trial, area);
+        double result = penalty() * (v.pressure - prescribed);
+        for (int R = 0; R < dim; ++R)
+          result -= area[R] * r.fluid_gradient[R][0];
+        return result;
+      }
 
       template <unsigned int pattern>
       struct Values
@@ -27,33 +51,67 @@ namespace kedge
         static constexpr int n = stencil_size<dim>(pattern);
 
         explicit Values(const SurfaceKernel &k)
-          : slots(k.face.slot, k.face.slot + 1)
-          , lanes(k.b)
+          : basis(expand<dim, pattern>(k.face.gradients))
           , at_face(expand<dim, pattern>(k.face.functions))
         {
-          lanes.read(slots);
-          pressure = 0.;
+          const Patch<dim> &patch   = k.b.context.patch;
+          const auto        offsets = node_offsets<dim, pattern>(patch.window().node_strides());
+          Nodal             sums{};
           for (int A = 0; A < n; ++A)
-            pressure += at_face.value[A] * lanes.of_points.nodal[dim][A];
+            {
+              local[A] = patch.nodes.local(k.face.functions.first_node + offsets[A]);
+              add_node(k.b.trial, A, sums);
+            }
+          const unsigned int slot = k.face.slot;
+          trial.volume            = patch.points.volume[slot];
+          trial.determinant       = patch.points.determinant[slot];
+          trial.pressure_n        = k.b.pores.pressure[slot];
+          trial.fluctuation_n = trial.fluctuation = trial.known_rate = 0.; // of no effect on q
+          trial.pressure                                             = sums.value[dim];
+          for (int i = 0; i < dim; ++i)
+            {
+              trial.acceleration[i]      = sums.value[i];
+              trial.pressure_gradient[i] = sums.gradient[dim][i];
+              for (int j = 0; j < dim; ++j)
+                trial.displacement[i][j] = sums.gradient[i][j];
+            }
         }
 
-        const BasisValues<dim, n> &
-        basis() const
+        std::array<int, n>  local;
+        BasisValues<dim, n> basis, at_face;
+        PoreTrial<dim>      trial;         ///< the same in all lanes
+        double              pressure = 0.; ///< at the place
+
+      private:
+        /** Acceleration and pressure, gradients of displacement and pressure. */
+        struct Nodal
         {
-          return lanes.of_points.basis[0];
-        }
+          double value[dim + 1], gradient[dim + 1][dim];
+        };
 
-        int
-        local(const int A) const
+        void
+        add_node(const PorousTrial<dim> &at, const int A, Nodal &sums)
         {
-          return lanes.of_points.local[0][A];
+          const double *x = &at.unknowns[std::size_t(local[A]) * (dim + 1)];
+          for (int i = 0; i <= dim; ++i)
+            for (int j = 0; j < dim; ++j)
+              sums.gradient[i][j] += x[i] * basis.gradient[j][A];
+          for (int i = 0; i < dim && !at.acceleration.empty(); ++i)
+            sums.value[i] += at.acceleration[std::size_t(local[A]) * dim + i] * basis.value[A];
+          sums.value[dim] += x[dim] * basis.value[A];
+          pressure += x[dim] * at_face.value[A];
         }
-
-        PackOfSlots               slots; ///< the point alone, in lane 0
-        PorousLanes<dim, pattern> lanes;
-        BasisValues<dim, n>       at_face; ///< its values
-        double                    pressure;
       };
+
+      /** The pores alone: the flow knows nothing of the skeleton's stress. */
+      template <bool with_tangent>
+      void
+      respond(const PoreTrial<dim> &trial, PoreResponse<dim> &response) const
+      {
+        ForceStress<dim, Pack> no_stress{};
+        no_stress.valid = Pack(0.) <= Pack(0.);
+        evaluate_pore_response<dim, with_tangent>(no_stress, b.step, trial, response);
+      }
 
       /** The face's area over the volume whose factors a PoreResponse holds. */
       void
@@ -79,7 +137,8 @@ namespace kedge
     struct SurfaceResidualKernel : SurfaceKernel<dim>
     {
       std::vector<double> &residual;
-      std::vector<double> &outflow; ///< volume that leaves, by surface
+      double              &outflow; ///< volume that leaves
+      PointStatus         &status;
 
       template <unsigned int pattern>
       void
@@ -88,18 +147,17 @@ namespace kedge
         typedef typename SurfaceKernel<dim>::template Values<pattern> Values;
         const Values                                                  v(*this);
         PoreResponse<dim>                                             r;
-        respond<false>(this->b, v.slots, v.lanes.trial, r);
+        this->template respond<false>(v.trial, r);
         if (!r.valid[0])
-          return; // the batch's own kernel has said so
-        double area[dim];
-        this->scale_area(v.lanes.trial, area);
-        double volume =
-          this->penalty() * (v.pressure - this->b.trial.surface_pressures[this->face.surface]);
-        for (int R = 0; R < dim; ++R)
-          volume -= area[R] * r.fluid_gradient[R][0];
-        outflow[this->face.surface] += volume;
+          {
+            status.failed_slot = this->face.slot;
+            return;
+          }
+        outflow = this->volume(v, r);
+        if (!this->passes(outflow))
+          outflow = 0.;
         for (int A = 0; A < Values::n; ++A)
-          residual[std::size_t(v.local(A)) * (dim + 1) + dim] += v.at_face.value[A] * volume;
+          residual[std::size_t(v.local[A]) * (dim + 1) + dim] += v.at_face.value[A] * outflow;
       }
     };
 
@@ -107,6 +165,41 @@ namespace kedge
     struct SurfaceTangentKernel : SurfaceKernel<dim>
     {
       NodeMatrix<dim> &tangent;
+
+      /** Slopes of the volume that leaves by the unknowns of node B. */
+      template <class Values>
+      void
+      find_slopes(const Values            &v,
+                  const PoreResponse<dim> &r,
+                  double (&slope)[dim + 1][Values::n]) const
+      {
+        double area[dim];
+        this->scale_area(v.trial, area);
+        const double penalty = this->penalty();
+        for (int B = 0; B < Values::n; ++B)
+          {
+            const double N = v.basis.value[B];
+            slope[dim][B]  = penalty * v.at_face.value[B];
+            for (int R = 0; R < dim; ++R)
+              {
+                double by_p = r.pp_weight[R][0] * N;
+                for (int S = 0; S < dim; ++S)
+                  by_p += r.pp[R][S][0] * v.basis.gradient[S][B];
+                slope[dim][B] -= area[R] * by_p;
+              }
+            for (int m = 0; m < dim; ++m)
+              {
+                slope[m][B] = 0.;
+                for (int R = 0; R < dim; ++R)
+                  {
+                    double by_u = r.pu_inertia[R][m][0] * N;
+                    for (int S = 0; S < dim; ++S)
+                      by_u += r.pu[R][m][S][0] * v.basis.gradient[S][B];
+                    slope[m][B] -= area[R] * by_u;
+                  }
+              }
+          }
+      }
 
       template <unsigned int pattern>
       void
@@ -117,54 +210,34 @@ namespace kedge
         const auto        rows = row_slots<dim, pattern>(tangent);
         const Values      v(*this);
         PoreResponse<dim> r;
-        respond<true>(this->b, v.slots, v.lanes.trial, r);
-        double area[dim];
-        this->scale_area(v.lanes.trial, area);
-        const double penalty = this->penalty();
-        // slope of the volume that leaves by the unknowns of node B
+        this->template respond<true>(v.trial, r);
+        if (!this->passes(this->volume(v, r)))
+          return;
         double slope[dim + 1][n];
-        for (int B = 0; B < n; ++B)
-          {
-            const double N = v.basis().value[B];
-            slope[dim][B]  = penalty * v.at_face.value[B];
-            for (int R = 0; R < dim; ++R)
-              {
-                double by_p = r.pp_weight[R][0] * N;
-                for (int S = 0; S < dim; ++S)
-                  by_p += r.pp[R][S][0] * v.basis().gradient[S][B];
-                slope[dim][B] -= area[R] * by_p;
-              }
-            for (int m = 0; m < dim; ++m)
-              {
-                slope[m][B] = 0.;
-                for (int R = 0; R < dim; ++R)
-                  {
-                    double by_u = r.pu_inertia[R][m][0] * N;
-                    for (int S = 0; S < dim; ++S)
-                      by_u += r.pu[R][m][S][0] * v.basis().gradient[S][B];
-                    slope[m][B] -= area[R] * by_u;
-                  }
-              }
-          }
+        find_slopes(v, r, slope);
         double values[n * (dim + 1)];
         for (int A = 0; A < n; ++A)
           {
             for (int B = 0; B < n; ++B)
               for (int m = 0; m <= dim; ++m)
                 values[B * (dim + 1) + m] = v.at_face.value[A] * slope[m][B];
-            add_to_row<dim, pattern, dim + 1>(rows[A], values, tangent.row(v.local(A), dim));
+            add_to_row<dim, pattern, dim + 1>(rows[A], values, tangent.row(v.local[A], dim));
           }
       }
     };
 
-    /** Calls run(face) for the faces of a batch's points. */
+    /** Calls run(SurfaceKernel, number of the face) for the faces of a batch's points. */
     template <int dim, typename Run>
     inline void
     for_faces(const PorousBatch<dim> &b, const Run &run)
     {
-      for (const SurfacePoint<dim> &face : b.trial.surface)
-        if (face.slot >= b.context.batch.begin && face.slot < b.context.batch.end)
-          run(face);
+      for (std::size_t f = 0; f < b.trial.surface.size(); ++f)
+        {
+          const SurfacePoint<dim> &face = b.trial.surface[f];
+          if (face.slot >= b.context.batch.begin && face.slot < b.context.batch.end)
+            run(SurfaceKernel<dim>{b, face, b.trial.surface_pressures[f], b.trial.surface_flows[f]},
+                f);
+        }
     }
   } // namespace internal
 } // namespace kedge

@@ -327,11 +327,19 @@ namespace kedge
       {
         return {
           "Surface pressures",
-          "Pore pressures on the outer faces of a saturated body that look to one side; they "
-          "move with the body, and press on it as water does.",
+          "Pore pressures on the outer faces of a saturated body that look to one side or to all; "
+          "they move with the body, and press on it as water does; on sides that are oblique or "
+          "curved on facets of its surface.",
           SectionKind::named,
-          faces_of_a_body(
-            {{"Pressure", required, allow.expression({"t"}, "t"), "Of the fluid there [Pa]."}})};
+          faces_of_a_body({{"Pressure",
+                            required,
+                            of_place_and_time(),
+                            "Of the fluid there [Pa]; x, y, z is the face's present place."},
+                           {"Flow",
+                            "both ways",
+                            allow.one_of({"both ways", "out"}),
+                            "With out no fluid comes in: a seepage face. Where none leaves, the "
+                            "pressure within is at most the given one."}})};
       }
 
       SectionDeclaration
@@ -339,7 +347,7 @@ namespace kedge
       {
         return {"Surface fluxes",
                 "Fluid that enters through the outer faces of a saturated body that look to one "
-                "side; they move with the body.",
+                "side or to all; they move with the body.",
                 SectionKind::named,
                 faces_of_a_body(
                   {{"Flux",

@@ -157,7 +157,8 @@ namespace kedge
     for (const std::string &name : reader.names("Surface pressures"))
       {
         const SectionReader section(reader, {"Surface pressures", name});
-        scene.surface_pressures.push_back({place(section), section.text("Pressure")});
+        scene.surface_pressures.push_back(
+          {place(section), section.text("Pressure"), section.text("Flow") == "out"});
       }
     for (const std::string &name : reader.names("Surface fluxes"))
       {

@@ -159,7 +159,7 @@ namespace kedge
             << point->location.distance(place) << " m from its Place\n";
     }
 
-    /** Warns of fluid on sides that are not along the axes: points' faces do not tile them. */
+    /** Warns of conditions on sides that are not along the axes: points' faces do not tile them. */
     template <int dim>
     void
     describe_faces(const Model<dim>        &model,
@@ -192,10 +192,6 @@ namespace kedge
       for (const auto &condition : model.scene.body_conditions)
         if (!condition.section)
           describe_faces(model, "Body conditions", condition, out);
-      for (const auto &pressure : model.scene.surface_pressures)
-        describe_faces(model, "Surface pressures", pressure, out);
-      for (const auto &flux : model.scene.surface_fluxes)
-        describe_faces(model, "Surface fluxes", flux, out);
       std::size_t n = 0;
       for (const auto &load : model.scene.point_loads)
         if (n++ < most_lines)

@@ -163,8 +163,8 @@ namespace kedge
                  bodies.initial_pore_pressure,
                  scene.constants},
       loads.external_loads(),
-      SurfacePressures<dim>(scene.surface_pressures, scene.constants, program),
-      SurfaceFluxes<dim>(scene.surface_fluxes, scene.constants, program),
+      SurfacePressures<dim>(scene.surface_pressures, scene.constants, program, surface_terms),
+      SurfaceFluxes<dim>(scene.surface_fluxes, scene.constants, program, surface_terms),
       *scene.pore_fluid,
       scheme,
       pore_scheme,
@@ -296,10 +296,15 @@ namespace kedge
                           "' more surface points than can be followed. Allowed: from " +
                           std::to_string(smallest_spacing) + " of a cell on.");
         const bool                contact = spacing < none;
-        std::vector<unsigned int> sides; // that loads act on
-        for (const auto &traction : scene.tractions)
-          if (traction.body == bodies.names[b])
-            sides.push_back(traction.side);
+        std::vector<unsigned int> sides; // that something is prescribed on
+        const auto                add = [&](const auto &prescribed) {
+          for (const auto &surface : prescribed)
+            if (surface.body == bodies.names[b])
+              sides.push_back(surface.side);
+        };
+        add(scene.tractions);
+        add(scene.surface_pressures);
+        add(scene.surface_fluxes);
         if (contact || !sides.empty())
           surface_terms.push_back(
             &add_term(std::make_unique<SurfaceTerm<dim>>(scene.bodies[b],

@@ -1,5 +1,9 @@
 #include <kedge/surfaces/body_surface.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
 namespace kedge
 {
   template <int dim>
@@ -31,6 +35,13 @@ namespace kedge
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           result[window.cell_number(lattice.cell_of(points.location[slot]))] +=
             points.volume[slot] * points.determinant[slot] / cell_volume;
+    if (dealii::Utilities::MPI::n_mpi_processes(patch.grid().communicator()) > 1)
+      MPI_Allreduce(MPI_IN_PLACE, // points of a cell are all on one rank: the sums are exact
+                    result.data(),
+                    static_cast<int>(result.size()),
+                    MPI_DOUBLE,
+                    MPI_SUM,
+                    patch.grid().communicator());
     return result;
   }
 
@@ -98,17 +109,20 @@ namespace kedge
   void
   BodySurface<dim>::find_roots()
   {
-    const auto                          &lattice = patch.grid().lattice();
-    const auto                          &window  = patch.window();
-    const std::vector<double>            filling = fillings();
+    const auto               &lattice = patch.grid().lattice();
+    const auto               &window  = patch.window();
+    const std::vector<double> filling = fillings();
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(patch.grid().communicator());
     std::map<unsigned int, unsigned int> number_of_cell;
     roots.clear();
-    root_of_vertex.resize(n_vertices());
+    root_of_vertex.assign(n_vertices(), elsewhere);
     weights.resize(n_vertices());
     for (unsigned int v = 0; v < n_vertices(); ++v)
       {
         const dealii::Point<dim> &x    = mesh_.vertices[v];
         const LatticeIndex<dim>   cell = root_cell(x, filling, search_radius);
+        if (patch.grid().cell_owner(cell) != rank)
+          continue;
         const auto [entry, is_new] =
           number_of_cell.emplace(window.cell_number(cell), static_cast<unsigned int>(roots.size()));
         root_of_vertex[v] = entry->second;
@@ -149,6 +163,19 @@ namespace kedge
         for (int d = 0; d < dim; ++d)
           at_vertices[v][d] += N * nodal[std::size_t(node) * dim + d];
       });
+    if (dealii::Utilities::MPI::n_mpi_processes(patch.grid().communicator()) == 1)
+      return;
+    std::vector<double> sums;
+    for (const auto &value : at_vertices)
+      sums.insert(sums.end(), value.begin_raw(), value.end_raw());
+    MPI_Allreduce(MPI_IN_PLACE,
+                  sums.data(),
+                  static_cast<int>(sums.size()),
+                  MPI_DOUBLE,
+                  MPI_SUM,
+                  patch.grid().communicator());
+    for (unsigned int v = 0; v < n_vertices(); ++v)
+      std::copy_n(sums.begin() + v * dim, dim, at_vertices[v].begin_raw());
   }
 
 

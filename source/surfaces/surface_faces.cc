@@ -216,6 +216,9 @@ namespace kedge
           add_faces(id, points.slot_of[number], state, patch);
       });
     facets.add_points(patch, faces);
+    for (SurfacePoint<dim> &face : faces)
+      for (int d = 0; d < dim; ++d)
+        face.place[d] = points.location[face.slot][d] + face.offset[d];
     std::stable_sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
       return a.slot < b.slot;
     });

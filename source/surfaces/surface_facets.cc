@@ -1,7 +1,10 @@
 #include <kedge/surfaces/face_functions.h>
 #include <kedge/surfaces/surface_facets.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace kedge
@@ -61,28 +64,37 @@ namespace kedge
                 .push_back(slot);
       }
 
-      bool
-      empty() const
+      /** A point, and the square of its distance [m^2]. */
+      struct Nearest
       {
-        return slots.empty();
+        unsigned int slot     = 0;
+        double       distance = std::numeric_limits<double>::max();
+      };
+
+      /** Whether a cell of the window holds points of this rank. */
+      bool
+      has_points_in(const LatticeIndex<dim> &cell) const
+      {
+        return patch.window().contains_cell(cell) &&
+               slots.count(patch.window().cell_number(cell)) > 0;
       }
 
-      /** The slot of the point nearest to @p x, of the cells around if there is any. */
-      unsigned int
-      nearest(const dealii::Point<dim> &x) const
+      /** The point nearest to @p x in the cells around it, or, if @p anywhere, in all cells. */
+      Nearest
+      nearest(const dealii::Point<dim> &x, const bool anywhere) const
       {
-        unsigned int best     = 0;
-        double       distance = std::numeric_limits<double>::max();
-        const auto   look     = [&](const std::vector<unsigned int> &of_cell) {
+        Nearest    best;
+        const auto look = [&](const std::vector<unsigned int> &of_cell) {
           for (const unsigned int slot : of_cell)
-            if (const double to_x = patch.points.location[slot].distance_square(x); to_x < distance)
-              {
-                best     = slot;
-                distance = to_x;
-              }
+            if (const double to_x = patch.points.location[slot].distance_square(x);
+                to_x < best.distance)
+              best = {slot, to_x};
         };
+        if (anywhere)
+          for (const auto &[cell, of_cell] : slots)
+            look(of_cell);
         const LatticeIndex<dim> here = patch.grid().lattice().cell_of(x);
-        for (int k = 0; k < (dim == 2 ? 9 : 27); ++k)
+        for (int k = 0; k < (dim == 2 ? 9 : 27) && !anywhere; ++k)
           {
             LatticeIndex<dim> cell = here;
             for (int d = 0, rest = k; d < dim; ++d, rest /= 3)
@@ -93,9 +105,6 @@ namespace kedge
             if (found != slots.end())
               look(found->second);
           }
-        if (distance == std::numeric_limits<double>::max())
-          for (const auto &[cell, of_cell] : slots) // far from all material
-            look(of_cell);
         return best;
       }
 
@@ -104,19 +113,19 @@ namespace kedge
       std::map<unsigned int, std::vector<unsigned int>> slots; ///< by cell of the window
     };
 
-    /** The cell that a part of a facet with these corners and this normal belongs to: inside. */
+    /** A place just inside the body below the middle of a part of a facet with these corners. */
     template <int dim>
-    LatticeIndex<dim>
-    cell_below(const Lattice<dim>                        &lattice,
-               const std::array<dealii::Point<dim>, dim> &corners,
-               const dealii::Tensor<1, dim>              &normal,
-               const FacetPart<dim>                      &part)
+    dealii::Point<dim>
+    place_below(const Lattice<dim>                        &lattice,
+                const std::array<dealii::Point<dim>, dim> &corners,
+                const FacetPart<dim>                      &part)
     {
-      constexpr double                 depth = 1e-6; // of a cell
+      constexpr double                 depth  = 1e-6; // of a cell
+      const dealii::Tensor<1, dim>     normal = area_vector<dim>(corners);
       typename FacetPart<dim>::Weights middle;
       middle.fill(1. / dim);
-      return lattice.cell_of(place_on_facet<dim>(corners, part.place(middle)) -
-                             depth * lattice.smallest_cell_size() * normal);
+      return place_on_facet<dim>(corners, part.place(middle)) -
+             depth * lattice.smallest_cell_size() / normal.norm() * normal;
     }
 
     /** Whether a facet looks rather to this side than to others; to all of 2 dim. */
@@ -162,6 +171,90 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /**
+     * Finds the nearest material points and leaves out the candidates that belong to another rank:
+     * to the one whose points lie in the candidate's cell, else to that of the nearest point
+     * (collective).
+     */
+    template <int dim, class Candidate>
+    void
+    find_points(const PointsOfBody<dim> &body,
+                const MPI_Comm           ranks,
+                std::vector<Candidate>  &candidates)
+    {
+      struct Found // as MPI_DOUBLE_INT has it
+      {
+        double distance;
+        int    rank;
+      };
+      const int          rank = static_cast<int>(dealii::Utilities::MPI::this_mpi_process(ranks));
+      std::vector<Found> found(candidates.size(), {std::numeric_limits<double>::max(), rank});
+      for (const bool anywhere : {false, true}) // the second for what is far from all material
+        {
+          bool any = false;
+          for (std::size_t k = 0; k < candidates.size(); ++k)
+            if (found[k].distance == std::numeric_limits<double>::max())
+              {
+                const auto best          = body.nearest(candidates[k].point.place, anywhere);
+                candidates[k].point.slot = best.slot;
+                found[k] = {body.has_points_in(candidates[k].cell) ? -1. : best.distance, rank};
+                any      = true;
+              }
+          if (any && dealii::Utilities::MPI::n_mpi_processes(ranks) > 1)
+            MPI_Allreduce(MPI_IN_PLACE,
+                          found.data(),
+                          static_cast<int>(found.size()),
+                          MPI_DOUBLE_INT,
+                          MPI_MINLOC,
+                          ranks);
+        }
+      std::size_t n = 0;
+      for (std::size_t k = 0; k < candidates.size(); ++k)
+        if (found[k].rank == rank && found[k].distance < std::numeric_limits<double>::max())
+          candidates[n++] = candidates[k];
+      candidates.resize(n);
+    }
+  } // namespace
+
+
+
+  /** The quadrature points on the chosen parts of a surface, on all ranks alike. */
+  template <int dim>
+  std::vector<typename SurfaceFacets<dim>::Candidate>
+  SurfaceFacets<dim>::candidates_on(const Chosen &here, const Lattice<dim> &lattice)
+  {
+    std::vector<Candidate> result;
+    for (const Part &part : here.parts)
+      {
+        const auto corners = here.surface->mesh().corners(part.facet);
+        const auto start   = here.start.corners(part.facet);
+        const auto area = area_vector<dim>(corners), area_at_start = area_vector<dim>(start);
+        for (const auto &piece : cut_to_cells<dim>(lattice, corners, part.covered))
+          {
+            const auto   cell     = lattice.cell_of(place_below<dim>(lattice, corners, piece));
+            const double fraction = piece.fraction();
+            for (const auto &gauss : quadrature<dim>())
+              {
+                const auto        weights = piece.place(gauss.place);
+                SurfacePoint<dim> point{};
+                point.place            = place_on_facet<dim>(corners, weights);
+                point.surface          = here.number;
+                point.reference_area   = gauss.weight * fraction * part.area;
+                point.reference_place  = place_on_facet<dim>(start, weights);
+                point.reference_normal = area_at_start / area_at_start.norm();
+                for (int d = 0; d < dim; ++d)
+                  point.area[d] = gauss.weight * fraction * area[d];
+                result.push_back({point, cell});
+              }
+          }
+      }
+    return result;
+  }
+
+
+
   template <int dim>
   void
   SurfaceFacets<dim>::add_points(const Patch<dim>               &patch,
@@ -172,44 +265,23 @@ namespace kedge
       {
         if (&here.surface->patch != &patch)
           continue;
-        const PointsOfBody<dim> body(patch, here.surface->body);
-        const BasisKind         basis = patch.basis_of(here.surface->body);
-        for (const Part &part : here.parts)
+        const BasisKind basis      = patch.basis_of(here.surface->body);
+        auto            candidates = candidates_on(here, lattice);
+        find_points<dim>(PointsOfBody<dim>(patch, here.surface->body),
+                         patch.grid().communicator(),
+                         candidates);
+        for (const auto &candidate : candidates)
           {
-            const auto corners = here.surface->mesh().corners(part.facet);
-            const auto start   = here.start.corners(part.facet);
-            const auto area = area_vector<dim>(corners), area_at_start = area_vector<dim>(start);
-            for (const auto &piece : cut_to_cells<dim>(lattice, corners, part.covered))
-              {
-                const auto   cell = cell_below<dim>(lattice, corners, area / area.norm(), piece);
-                const double fraction = piece.fraction();
-                for (const auto &gauss : quadrature<dim>())
-                  {
-                    const auto        weights = piece.place(gauss.place);
-                    const auto        x       = place_on_facet<dim>(corners, weights);
-                    SurfacePoint<dim> point;
-                    point.slot             = body.nearest(x);
-                    point.surface          = here.number;
-                    point.reference_area   = gauss.weight * fraction * part.area;
-                    point.reference_place  = place_on_facet<dim>(start, weights);
-                    point.reference_normal = area_at_start / area_at_start.norm();
-                    for (int d = 0; d < dim; ++d)
-                      {
-                        point.offset[d] = x[d] - patch.points.location[point.slot][d];
-                        point.area[d]   = gauss.weight * fraction * area[d];
-                      }
-                    auto functions = functions_of_cell<dim>(patch, basis, cell, x);
-                    if (!functions)
-                      functions =
-                        functions_of_cell<dim>(patch,
-                                               basis,
-                                               lattice.cell_of(patch.points.location[point.slot]),
-                                               x);
-                    AssertThrow(functions, dealii::ExcInternalError());
-                    point.functions = point.gradients = *functions;
-                    points.push_back(point);
-                  }
-              }
+            SurfacePoint<dim>         point = candidate.point;
+            const dealii::Point<dim> &at    = patch.points.location[point.slot];
+            for (int d = 0; d < dim; ++d)
+              point.offset[d] = point.place[d] - at[d];
+            auto functions = functions_of_cell<dim>(patch, basis, candidate.cell, point.place);
+            if (!functions)
+              functions = functions_of_cell<dim>(patch, basis, lattice.cell_of(at), point.place);
+            AssertThrow(functions, dealii::ExcInternalError());
+            point.functions = point.gradients = *functions;
+            points.push_back(point);
           }
       }
   }

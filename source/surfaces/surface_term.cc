@@ -33,10 +33,6 @@ namespace kedge
     const bool loaded = std::any_of(sides.begin(), sides.end(), [&](const unsigned int side) {
       return on_facets[side];
     });
-    if (loaded && dealii::Utilities::MPI::n_mpi_processes(surface_.patch.grid().communicator()) > 1)
-      throw UserError("Loads on all sides, or on sides that are oblique or curved, here of body '" +
-                      surface_.body_name +
-                      "', run on one process, not on several. Start kedge without mpirun.");
     if (!contact && !loaded)
       return;
     const auto        &lattice = surface_.patch.grid().lattice();

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 using namespace kedge;
 using namespace kedge::test;
 
@@ -101,8 +103,23 @@ namespace
             std::find_if(points.batches.begin(), points.batches.end(), [&](const auto &batch) {
               return slot < batch.end;
             })->body;
-          face.functions =
-            functions_at_face(patch, slot, patch.basis_of(body), face.offset, face.area);
+          const BasisKind    basis = patch.basis_of(body);
+          dealii::Point<dim> x     = points.location[slot];
+          for (int d = 0; d < dim; ++d)
+            x[d] += face.offset[d];
+          if (slot % 2 == 0)
+            {
+              face.functions = functions_at_face(patch, slot, basis, face.offset, face.area);
+              face.gradients = points.stencil[slot];
+            }
+          else // on a facet: the functions of the grid in the point's cell
+            face.functions = face.gradients =
+              *functions_of_cell<dim>(patch,
+                                      basis,
+                                      patch.grid().lattice().cell_of(points.location[slot]),
+                                      x);
+          pressures.push_back(random.uniform(-0.3, 0.3));
+          flows.push_back(slot % 4 == 0 ? SurfaceFlow::one_way : SurfaceFlow::both_ways);
           faces.push_back(face);
         }
     }
@@ -148,7 +165,7 @@ namespace
     {
       std::vector<double> result(x.size(), 0.);
       PorousSize          size;
-      outflow.assign(2, 0.);
+      outflow.assign(faces.size(), 0.);
       EXPECT_TRUE(force.add_residual(patch, pores, trial(x, a), result, outflow, size).ok());
       // the terms bound what is left of them
       double left = 0.;
@@ -161,7 +178,7 @@ namespace
     PorousTrial<dim>
     trial(const std::vector<double> &x, const std::vector<double> &a) const
     {
-      PorousTrial<dim> result{x, a, setting.inertia, 0.3, 0.5, {}, faces, {0.3, -0.2}, 4.};
+      PorousTrial<dim> result{x, a, setting.inertia, 0.3, 0.5, {}, faces, pressures, flows, 4.};
       for (int d = 0; d < dim; ++d)
         result.body_force[d] = 0.5 - d;
       return result;
@@ -185,6 +202,8 @@ namespace
     PorePoints<dim>                pores;
     std::vector<double>            constant; ///< of the nodal accelerations
     std::vector<SurfacePoint<dim>> faces;
+    std::vector<double>            pressures; ///< prescribed there
+    std::vector<SurfaceFlow>       flows;
     mutable std::vector<double>    outflow; ///< of the last force_at()
   };
 
@@ -290,7 +309,7 @@ TYPED_TEST(PorousForceTest, VolumeOfFluidChangesByItsContentAlone)
         }
       // fluxes and stabilisation only move fluid: what is left is V0 dt m'/rho_0, and what
       // leaves through the surfaces
-      expected = problem.outflow[0] + problem.outflow[1];
+      expected = std::accumulate(problem.outflow.begin(), problem.outflow.end(), 0.);
       EXPECT_NE(problem.outflow[0], 0.);
       std::vector<PoreUpdate<dim>> updates;
       problem.force.evaluate_updates(problem.patch, problem.pores, problem.trial(x, a), updates);
@@ -317,6 +336,33 @@ TYPED_TEST(PorousForceTest, VolumeOfFluidChangesByItsContentAlone)
       EXPECT_NEAR(sum, expected, 1e-14 * terms) << setting.name;
       EXPECT_GT(terms, 0.02);
     }
+}
+
+// of a seepage face what would leave leaves, what would come in does not
+TYPED_TEST(PorousForceTest, SeepageFacesLetNothingIn)
+{
+  constexpr int    dim     = TypeParam::value;
+  const Setting    setting = settings()[0];
+  const Cloud<dim> cloud({BasisKind::gimp, BasisKind::linear}, 2, 5);
+  Problem<dim>     problem(cloud, setting, false);
+  const auto       x            = problem.some_state();
+  const auto       outflow_with = [&](const SurfaceFlow flow) {
+    problem.flows.assign(problem.faces.size(), flow);
+    problem.residual(x);
+    return problem.outflow;
+  };
+  const auto open    = outflow_with(SurfaceFlow::both_ways),
+             seepage = outflow_with(SurfaceFlow::one_way),
+             closed  = outflow_with(SurfaceFlow::closed);
+  unsigned int n_in  = 0;
+  for (std::size_t f = 0; f < open.size(); ++f)
+    {
+      n_in += open[f] < 0.;
+      EXPECT_EQ(seepage[f], std::max(open[f], 0.));
+      EXPECT_EQ(closed[f], 0.);
+    }
+  EXPECT_GT(n_in, 0u);
+  EXPECT_LT(n_in, open.size());
 }
 
 TYPED_TEST(PorousForceTest, NothingMovesInAFreeFall)

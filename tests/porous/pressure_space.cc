@@ -208,7 +208,7 @@ namespace
     PorousTrial<dim>
     trial(const std::vector<double> &x, const std::vector<double> &a) const
     {
-      PorousTrial<dim> result{x, a, 3., 0.3, 0.5, {}, faces, {}, 0.};
+      PorousTrial<dim> result{x, a, 3., 0.3, 0.5, {}, faces, {}, {}, 0.};
       result.body_force[0] = 0.5;
       return result;
     }

@@ -30,7 +30,8 @@ namespace kedge
   /** A pore pressure on outer faces of a body. */
   struct SurfacePressureParameters : SurfaceParameters
   {
-    std::string pressure; ///< expression of t [Pa]
+    std::string pressure;        ///< expression of x, y, z, t [Pa]
+    bool        one_way = false; ///< fluid may leave, and none comes in: a seepage face
   };
 
   /** What fluid enters through outer faces of a body. */

@@ -5,6 +5,7 @@
 #include <kedge/porous/pore_points.h>
 #include <kedge/porous/pore_update.h>
 #include <kedge/porous/surface_pressures.h>
+#include <kedge/porous/surface_valves.h>
 #include <kedge/solid/internal_force.h>
 
 namespace kedge
@@ -24,7 +25,8 @@ namespace kedge
     double                                cell_size;    ///< [m], for PorousSize
     std::array<double, std::size_t(dim)>  body_force;   ///< acceleration f [m/s^2]
     const std::vector<SurfacePoint<dim>> &surface;
-    std::vector<double>                   surface_pressures; ///< prescribed, by surface [Pa]
+    std::vector<double>                   surface_pressures; ///< prescribed, one per place [Pa]
+    std::vector<SurfaceFlow>              surface_flows;     ///< one per place
     double                                surface_penalty;   ///< see SurfacePressures [-]
   };
 
@@ -59,7 +61,7 @@ namespace kedge
      * of fluid [m^3]. Stops at the first point that fails.
      *
      * @param size grows by the terms' squares
-     * @param outflow grows by the volume that leaves each surface [m^3]
+     * @param outflow the volume that leaves at each place of the trial's surface [m^3]
      */
     PointStatus
     add_residual(const Patch<dim>       &patch,

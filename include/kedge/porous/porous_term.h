@@ -89,6 +89,9 @@ namespace kedge
                    const Tangent<dim> &tangent,
                    LinearSolver       &solver) override;
 
+    bool
+    refresh(const Trial<dim> &trial) override;
+
     Answer
     finish(const Trial<dim> &trial) override;
 
@@ -153,6 +156,8 @@ namespace kedge
        const double               step,
        const double               t_load,
        const double               t_pressure) const;
+    std::vector<double>
+    open_outflow(const Trial<dim> &trial) const;
     Inflow
     inflow(const Trial<dim> &trial, const Residual<dim> &residual) const;
     double
@@ -165,6 +170,7 @@ namespace kedge
     const ExternalLoads<dim> &loads;
     SurfacePressures<dim>     surfaces;
     SurfaceFluxes<dim>        fluxes;
+    SurfaceValves             valves; ///< of the places of surfaces
     const PorousParameters    parameters;
     const Scheme              scheme;
     const int                 radius;

@@ -17,9 +17,10 @@ namespace kedge
   class SurfaceFluxes : public SurfaceFaces<dim>
   {
   public:
-    SurfaceFluxes(const std::vector<SurfaceFluxParameters> &parameters,
-                  const std::map<std::string, double>      &constants,
-                  const LoadProgram                        &program = {});
+    SurfaceFluxes(const std::vector<SurfaceFluxParameters>    &parameters,
+                  const std::map<std::string, double>         &constants,
+                  const LoadProgram                           &program  = {},
+                  const std::vector<const SurfaceTerm<dim> *> &surfaces = {});
 
     /**
      * Adds the volume that enters in a step @p dt at the rate of time @p t to

@@ -16,11 +16,20 @@ namespace kedge
   public:
     SurfacePressures(const std::vector<SurfacePressureParameters> &parameters,
                      const std::map<std::string, double>          &constants,
-                     const LoadProgram                            &program = {});
+                     const LoadProgram                            &program  = {},
+                     const std::vector<const SurfaceTerm<dim> *>  &surfaces = {});
 
-    /** The prescribed pressure of each surface at time @p t [Pa]. */
+    /** The prescribed pressure at each of points() at time @p t [Pa]. */
     std::vector<double>
     pressures(const double t) const;
+
+    /** Whether there are seepage faces. */
+    bool
+    has_one_way() const;
+
+    /** Which of points() belong to seepage faces. */
+    std::vector<bool>
+    one_way() const;
 
     /** The force of the water on each of points() at time @p t [N]. */
     std::vector<dealii::Tensor<1, dim>>
@@ -28,7 +37,8 @@ namespace kedge
 
   private:
     const LoadProgram       program;
-    std::vector<Expression> expressions; ///< of t [Pa]
+    std::vector<Expression> expressions; ///< of x, y, z, t [Pa]
+    std::vector<bool>       is_one_way;  ///< by surface
   };
 } // namespace kedge
 

@@ -13,6 +13,9 @@ namespace kedge
    * = x. Rigid motions are therefore followed to round-off, and forces that act on vertices come to
    * the nodes with their resultant and their moment, and with nothing for nodes that next to no
    * mass belongs to. What a step tries is not kept here; commit() moves the surface.
+   *
+   * Every rank holds the whole surface. The nodes of a root cell, and with them the vertices that
+   * follow it, are known to the rank that owns the cell.
    */
   template <int dim>
   class BodySurface
@@ -46,7 +49,7 @@ namespace kedge
     void
     seed(const SurfaceMesh<dim> &seeded);
 
-    /** Finds the root cells in the configuration that the patch has just read. */
+    /** Finds the root cells in the configuration that the patch has just read (collective). */
     void
     find_roots();
 
@@ -76,16 +79,18 @@ namespace kedge
       return reference_areas[facet];
     }
 
-    /** Values at the vertices of a nodal vector with dim components per local node. */
+    /** Values at the vertices of a nodal vector with dim components per local node (collective). */
     void
     interpolate(const std::vector<double>           &nodal,
                 std::vector<dealii::Tensor<1, dim>> &at_vertices) const;
 
-    /** Calls visit(local node, N) for the corners of a vertex's root cell. */
+    /** Calls visit(local node, N) for the corners of a vertex's root cell, if this rank owns it. */
     template <typename Visit>
     void
     for_nodes(const unsigned int vertex, const Visit &visit) const
     {
+      if (root_of_vertex[vertex] == elsewhere)
+        return;
       const auto &corners = roots[root_of_vertex[vertex]];
       for (unsigned int c = 0; c < n_corners; ++c)
         visit(corners[c], weights[vertex][c]);
@@ -116,6 +121,9 @@ namespace kedge
   private:
     using Corners = std::array<unsigned int, n_corners>;
 
+    /** The root of a vertex that belongs to another rank. */
+    static constexpr unsigned int elsewhere = static_cast<unsigned int>(-1);
+
     std::vector<double>
     fillings() const;
     LatticeIndex<dim>
@@ -125,7 +133,7 @@ namespace kedge
 
     SurfaceMesh<dim>                           mesh_;
     std::vector<double>                        reference_areas;
-    std::vector<Corners>                       roots; ///< local nodes of the root cells in use
+    std::vector<Corners>                       roots; ///< local nodes of the root cells in use here
     std::vector<unsigned int>                  root_of_vertex;
     std::vector<std::array<double, n_corners>> weights; ///< of each vertex
   };

@@ -36,7 +36,11 @@ namespace kedge
            const Expression        &where,
            const BodySurface<dim>  &surface);
 
-    /** Adds the points of the facets on bodies of a field as they are at the start of a step. */
+    /**
+     * Adds the points of the facets on bodies of a field as they are at the start of a step: on
+     * several ranks each where material lies in its cell, or else where the nearest point is
+     * (collective).
+     */
     void
     add_points(const Patch<dim> &patch, std::vector<SurfacePoint<dim>> &points) const;
 
@@ -55,6 +59,16 @@ namespace kedge
       SurfaceMesh<dim>        start; ///< the undeformed surface
       std::vector<Part>       parts;
     };
+
+    /** A quadrature point on a facet, whose functions are to be found. */
+    struct Candidate
+    {
+      SurfacePoint<dim> point;
+      LatticeIndex<dim> cell; ///< that it belongs to: below the facet
+    };
+
+    static std::vector<Candidate>
+    candidates_on(const Chosen &here, const Lattice<dim> &lattice);
 
     std::vector<Chosen> chosen;
   };

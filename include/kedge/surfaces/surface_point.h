@@ -22,6 +22,7 @@ namespace kedge
     /** Of the same nodes: their gradients say how the area stretches and turns. */
     Stencil<dim>           gradients{};
     dealii::Tensor<1, dim> reference_normal; ///< outward unit vector at the start of the run
+    dealii::Point<dim>     place{};          ///< in configuration n [m]
   };
 } // namespace kedge
 

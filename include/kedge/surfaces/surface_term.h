@@ -43,8 +43,7 @@ namespace kedge
       return "surface of body '" + surface_.body_name + "'";
     }
 
-    /** @throws UserError if the body has no surface within the grid, or on several processes if
-     * loads act on facets */
+    /** @throws UserError if the body has no surface within the grid */
     void
     attach(std::vector<GeneratedPoint<dim>> &points) override;
 
