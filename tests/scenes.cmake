@@ -207,6 +207,13 @@ kedge_add_scene_test(scene.terzaghi.early prm/terzaghi.prm
 # the errors that terzaghi.prm counts for T = 1 are 3.0e-4 and 3.3e-4 here
 kedge_add_scene_test(scene.terzaghi.linear prm/terzaghi.prm
   SET "Constants/T = 0.2" "Constants/tolerance = 8e-4" "Bodies/column/Basis = linear")
+# neither feels the other at any gap; pieces of one body do not while no node is reached by both
+kedge_add_scene_test(scene.passing_pieces prm/passing_pieces.prm)
+foreach(gap 0.5 1 2 5)
+  kedge_add_scene_test(scene.passing_pieces.${gap} prm/passing_pieces.prm
+    SET "Constants/gap = ${gap}")
+endforeach()
+kedge_add_scene_test(scene.pieces_of_one_body tests/scenes/pieces_of_one_body.prm)
 # drained at curved surfaces, a quarter and an eighth of which lie in the grid
 kedge_add_scene_test(scene.drained_cylinder prm/drained_cylinder.prm)
 kedge_add_scene_test(scene.drained_cylinder.ranks prm/drained_cylinder.prm RANKS 2)
