@@ -130,7 +130,7 @@ namespace kedge
     pores.reinit(cloud, patch.points, porous_force.scheme());
     surfaces.reinit(cloud, patch);
     fluxes.reinit(cloud, patch);
-    valves.reinit(surfaces.one_way());
+    surfaces.valves.reinit(surfaces.one_way());
     prepared.have_pattern = prepared.have_pattern && !patch.new_pattern();
   }
 
@@ -187,7 +187,7 @@ namespace kedge
   PorousTerm<dim>::start(Trial<dim> &trial)
   {
     prepared.have_values = false;
-    valves.start();
+    surfaces.valves.start();
     outflow.assign(surfaces.points().size(), 0.);
     pressure_mapping.map(patch, pores.pressure, radius, trial.unknowns.fields[field]);
     set_supply(trial.times);
@@ -228,7 +228,7 @@ namespace kedge
             loads.body_acceleration(t_load),
             surfaces.points(),
             surfaces.pressures(t_pressure),
-            valves.flows(),
+            surfaces.valves.flows(),
             parameters.surface_penalty};
   }
 
@@ -295,8 +295,8 @@ namespace kedge
   void
   PorousTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    if (surfaces.has_one_way() && valves.count_tangent())
-      valves.hold(open_outflow(trial));
+    if (surfaces.has_one_way() && surfaces.valves.count_tangent())
+      surfaces.valves.hold(open_outflow(trial));
     porous_force.add_tangent(patch, pores, at_trial(trial), tangent.lattice(field));
   }
 
@@ -321,9 +321,9 @@ namespace kedge
   bool
   PorousTerm<dim>::refresh(const Trial<dim> &trial)
   {
-    if (!surfaces.has_one_way() || !valves.may_turn()) // all ranks alike
+    if (!surfaces.has_one_way() || !surfaces.valves.may_turn()) // all ranks alike
       return false;
-    const bool again = valves.hold(open_outflow(trial));
+    const bool again = surfaces.valves.hold(open_outflow(trial));
     return dealii::Utilities::MPI::logical_or(again, patch.nodes.communicator());
   }
 

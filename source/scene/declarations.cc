@@ -328,8 +328,7 @@ namespace kedge
         return {
           "Surface pressures",
           "Pore pressures on the outer faces of a saturated body that look to one side or to all; "
-          "they move with the body, and press on it as water does; on sides that are oblique or "
-          "curved on facets of its surface.",
+          "they move with the body, and press on it as water does.",
           SectionKind::named,
           faces_of_a_body({{"Pressure",
                             required,
@@ -338,8 +337,7 @@ namespace kedge
                            {"Flow",
                             "both ways",
                             allow.one_of({"both ways", "out"}),
-                            "With out no fluid comes in: a seepage face. Where none leaves, the "
-                            "pressure within is at most the given one."}})};
+                            "out: a seepage face, through which no fluid comes in."}})};
       }
 
       SectionDeclaration

@@ -170,7 +170,6 @@ namespace kedge
     const ExternalLoads<dim> &loads;
     SurfacePressures<dim>     surfaces;
     SurfaceFluxes<dim>        fluxes;
-    SurfaceValves             valves; ///< of the places of surfaces
     const PorousParameters    parameters;
     const Scheme              scheme;
     const int                 radius;

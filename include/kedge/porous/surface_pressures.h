@@ -2,6 +2,7 @@
 #define kedge_porous_surface_pressures_h
 
 #include <kedge/porous/parameters.h>
+#include <kedge/porous/surface_valves.h>
 #include <kedge/solid/surface_loads.h>
 
 namespace kedge
@@ -22,6 +23,8 @@ namespace kedge
     /** The prescribed pressure at each of points() at time @p t [Pa]. */
     std::vector<double>
     pressures(const double t) const;
+
+    SurfaceValves valves; ///< which of points() are open
 
     /** Whether there are seepage faces. */
     bool
