@@ -309,8 +309,11 @@ TYPED_TEST(PorousForceTest, VolumeOfFluidChangesByItsContentAlone)
         }
       // fluxes and stabilisation only move fluid: what is left is V0 dt m'/rho_0, and what
       // leaves through the surfaces
-      expected = std::accumulate(problem.outflow.begin(), problem.outflow.end(), 0.);
-      EXPECT_NE(problem.outflow[0], 0.);
+      expected       = std::accumulate(problem.outflow.begin(), problem.outflow.end(), 0.);
+      double through = 0.;
+      for (const double volume : problem.outflow)
+        through += std::abs(volume);
+      EXPECT_GT(through, 1e-3);
       std::vector<PoreUpdate<dim>> updates;
       problem.force.evaluate_updates(problem.patch, problem.pores, problem.trial(x, a), updates);
       for (const auto &batch : problem.points.batches)
@@ -345,8 +348,10 @@ TYPED_TEST(PorousForceTest, SeepageFacesLetNothingIn)
   const Setting    setting = settings()[0];
   const Cloud<dim> cloud({BasisKind::gimp, BasisKind::linear}, 2, 5);
   Problem<dim>     problem(cloud, setting, false);
-  const auto       x            = problem.some_state();
-  const auto       outflow_with = [&](const SurfaceFlow flow) {
+  for (std::size_t f = 0; f < problem.pressures.size(); f += 2)
+    problem.pressures[f] = -10.; // sucks fluid out, the others let some in
+  const auto x            = problem.some_state();
+  const auto outflow_with = [&](const SurfaceFlow flow) {
     problem.flows.assign(problem.faces.size(), flow);
     problem.residual(x);
     return problem.outflow;
