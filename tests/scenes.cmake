@@ -107,8 +107,31 @@ kedge_add_scene_test(scene.inclined_roller prm/inclined_roller.prm)
 kedge_add_restart_test(scene.restart.pressed_by_condition prm/pressed_by_condition.prm KILLS 3
   SET "Output/Checkpoint every steps = 5" "Output/Points interval = 0")
 kedge_add_scene_test(scene.lost_support tests/scenes/lost_support.prm EXPECT_EXIT 2
-  EXPECT_STDOUT "stopped at t = 0.25 s: no node of Node conditions/grip is a body's any more"
+  EXPECT_STDOUT "stopped at t = 0.25 s: Node conditions/grip holds nothing any more of the material"
   EXPECT_STDERR "^$")
+# with inertia the body may fly on: said, and gone on
+kedge_add_scene_test(scene.lost_support.dynamic tests/scenes/lost_support.prm
+  SET "Time/Scheme = newmark"
+  EXPECT_STDOUT "WARNING: Node conditions/grip holds nothing any more of the material .* .t = 0.25 s.")
+# a fixed support that its body is pushed off
+kedge_add_scene_test(scene.lost_support.fixed tests/scenes/lost_support.prm
+  SET "Time/Scheme = newmark" "Node conditions/grip/Component x = free"
+      "Bodies/block/Initial velocity = 2, 0"
+  EXPECT_STDOUT "WARNING: Node conditions/grip holds nothing any more of the material")
+# conditions on nodes that take a place between nodes or a part of the body for theirs
+kedge_add_scene_test(scene.water_table.snaps prm/water_table.prm OPTIONS --validate
+  SET "Node conditions/dry/Where = y > yw - 1e-6" "Node conditions/dry/Pore pressure = 0"
+  EXPECT_STDOUT "note: Node conditions/dry: Where ends between nodes, up to 0.5 of a cell .*Surface pressures")
+kedge_add_scene_test(scene.moved_section.slips prm/moved_section.prm EXPECT_EXIT 2
+  SET "Body conditions/middle/Where = 0" "Node conditions/mid/Where = abs(x - 5) < 1e-6"
+      "Node conditions/mid/Component x = displacement(d*t)"
+  EXPECT_STDERR "^$"
+  EXPECT_STDOUT "(?s)WARNING: Node conditions/mid holds no more than 16 % .*stopped at t = 0.8 s: .*Body conditions")
+# a drained surface that sinks by several cells; the water stays in (.16 of it leaves for .93)
+kedge_add_scene_test(scene.terzaghi.sinks prm/terzaghi.prm
+  SET "Constants/w = 1.5e6" "Constants/dt = 2" "Output/Points interval = 0" EXPECT_EXIT 2
+  EXPECT_STDERR "^$"
+  EXPECT_STDOUT "WARNING: Node conditions/top holds nothing any more of the material .*Surface pressures")
 kedge_add_scene_test(scene.lost_support.note tests/scenes/lost_support.prm OPTIONS --validate
   EXPECT_STDOUT "grip moves what it holds by 8 cells, but its nodes stay")
 # a solution that runs away is no reason to enlarge the grid

@@ -1,43 +1,11 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/points/attachment_checks.h>
+#include <kedge/points/held_material.h>
 
 #include <algorithm>
 
 namespace kedge
 {
-  namespace
-  {
-    template <int dim>
-    bool
-    holds(const NodeConditionParameters<dim> &condition,
-          const Expression                   &where,
-          const Lattice<dim>                 &lattice,
-          const LatticeIndex<dim>            &node)
-    {
-      if (condition.on_side)
-        {
-          const int direction = static_cast<int>(condition.side / 2);
-          return node[direction] == (condition.side % 2 == 0 ? 0 : lattice.n_cells[direction]);
-        }
-      const auto x    = lattice.node_position(node);
-      double     v[3] = {0, 0, 0};
-      for (int d = 0; d < dim; ++d)
-        v[d] = x[d];
-      return where(v) != 0.;
-    }
-
-    template <int dim>
-    Expression
-    where_of(const NodeConditionParameters<dim>  &condition,
-             const std::map<std::string, double> &constants)
-    {
-      return condition.on_side ? Expression(1.)
-                               : Expression(condition.where, {"x", "y", "z"}, constants);
-    }
-  } // namespace
-
-
-
   template <int dim>
   void
   check_nearness(const std::string            &what,
@@ -86,13 +54,13 @@ namespace kedge
     const LatticeWindow<dim> window{{}, lattice.n_cells};
     for (const auto &condition : conditions)
       {
-        const Expression where = where_of(condition, constants);
+        const NodeRegion<dim> region(condition, constants);
         // an expression without x, y, z switches it on or off
-        if (condition.on_side || where.is_constant())
+        if (!region.has_limits())
           continue;
         bool any = false;
         for (unsigned int i = 0; i < window.n_nodes_total() && !any; ++i)
-          any = holds<dim>(condition, where, lattice, window.node_index(i));
+          any = region.holds(lattice, window.node_index(i));
         if (any)
           continue;
         std::ostringstream message;
@@ -113,31 +81,14 @@ namespace kedge
                    const Lattice<dim>                              &lattice,
                    const std::vector<PointOrigin<dim>>             &points)
   {
-    const auto make_unique = [](std::vector<LatticeIndex<dim>> &indices) {
-      std::sort(indices.begin(), indices.end());
-      indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-    };
-    std::vector<LatticeIndex<dim>> cells, nodes;
-    for (const auto &point : points)
-      if (const auto cell = lattice.cell_of(point.location); cells.empty() || cells.back() != cell)
-        cells.push_back(cell); // points of a cell often stand together
-    make_unique(cells);
-    for (const auto &cell : cells)
-      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-        {
-          LatticeIndex<dim> node = cell;
-          for (int d = 0; d < dim; ++d)
-            node[d] += static_cast<int>((corner >> d) & 1u);
-          nodes.push_back(node);
-        }
-    make_unique(nodes);
+    const auto               nodes = nodes_of_cells_with_points<dim>(lattice, points);
     std::vector<std::size_t> n_held;
     for (const auto &condition : conditions)
       {
-        const Expression where = where_of(condition, constants);
+        const NodeRegion<dim> region(condition, constants);
         n_held.push_back(
           std::count_if(nodes.begin(), nodes.end(), [&](const LatticeIndex<dim> &node) {
-            return holds<dim>(condition, where, lattice, node);
+            return region.holds(lattice, node);
           }));
       }
     return n_held;

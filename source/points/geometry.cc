@@ -1,8 +1,8 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/base/expression.h>
 #include <kedge/base/nearest_name.h>
-#include <kedge/points/geometry.h>
 #include <kedge/geometry/stl_file.h>
+#include <kedge/points/geometry.h>
 
 #include <deal.II/base/utilities.h>
 

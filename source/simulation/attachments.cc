@@ -1,8 +1,11 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/points/attachment_checks.h>
+#include <kedge/points/held_material.h>
 #include <kedge/simulation/attachments.h>
+#include <kedge/simulation/support_watch.h>
 
 #include <cmath>
+#include <iomanip>
 
 namespace kedge
 {
@@ -108,25 +111,58 @@ namespace kedge
         }
     }
 
-    /** Notes conditions whose nodes stand still while what they move leaves them behind. */
+    /** How far a condition moves what it holds from the start to the end of the run [m]. */
+    template <int dim>
+    dealii::Tensor<1, dim>
+    travel_of(const NodeConditionParameters<dim>  &condition,
+              const std::map<std::string, double> &constants,
+              const double                         start,
+              const double                         end)
+    {
+      constexpr int          n_samples = 1000; // of velocities: midpoint rule
+      dealii::Tensor<1, dim> travel;
+      for (int d = 0; d < dim; ++d)
+        {
+          const ComponentCondition &component = condition.components[d];
+          if (component.kind != ConditionKind::displacement &&
+              component.kind != ConditionKind::velocity)
+            continue;
+          const Expression motion(component.expression, {"t"}, constants);
+          if (component.kind == ConditionKind::displacement)
+            travel[d] = motion({end}) - motion({start});
+          else
+            for (int i = 0; i < n_samples; ++i)
+              travel[d] +=
+                motion({start + (i + 0.5) / n_samples * (end - start)}) * (end - start) / n_samples;
+        }
+      return travel;
+    }
+
+    /** Notes conditions that leave what they hold behind, or that end where no node is. */
     template <int dim>
     void
-    describe_travel(const Model<dim> &model, std::ostream &out)
+    describe_regions(const Model<dim> &model, std::ostream &out)
     {
-      const double h     = model.points.grid().lattice().smallest_cell_size();
-      const double start = model.scene.time.start, end = model.scene.time.end;
+      const Lattice<dim> &lattice = model.points.grid().lattice();
+      const auto          nodes   = nodes_of_cells_with_points<dim>(lattice, model.generated_points());
       for (const auto &condition : model.scene.node_conditions)
-        for (const auto &component : condition.components)
-          {
-            if (component.kind != ConditionKind::displacement)
-              continue;
-            const Expression displacement(component.expression, {"t"}, model.scene.constants);
-            const double     cells = std::abs(displacement({end}) - displacement({start})) / h;
-            if (cells > 1.)
-              out << "  note: " << title(condition) << " moves what it holds by " << cells
-                  << " cells, but its nodes stay where they are and hold whatever comes there "
-                     "next; Body conditions go with the body\n";
-          }
+        {
+          const NodeRegion<dim> region(condition, model.scene.constants);
+          const auto            travel = travel_of(condition,
+                                        model.scene.constants,
+                                        model.scene.time.start,
+                                        model.scene.time.end);
+          const double          cells  = travel.norm() / lattice.smallest_cell_size();
+          if (cells > 1. && part_carried_away<dim>(region, lattice, nodes, travel) > 0.5)
+            out << "  note: " << title(condition) << " moves what it holds by " << cells
+                << " cells, but its nodes stay where they are and hold whatever comes there next; "
+                << entries_that_follow(condition) << "\n";
+          if (const double beyond = reach_beyond_nodes<dim>(region, lattice, nodes); beyond > 0.)
+            out << "  note: " << title(condition) << ": Where ends between nodes, up to "
+                << std::setprecision(3) << beyond << std::setprecision(6)
+                << " of a cell beyond those that it holds; it acts as if it ended at them. "
+                << entries_that_follow(condition) << "\n";
+        }
     }
 
     /** The point of a body (of any, if there is no name) that is nearest to a place. */
@@ -254,7 +290,7 @@ namespace kedge
       out << "  note: " << hint << "\n";
     describe_conditions(model, out);
     describe_body_conditions(model, out);
-    describe_travel(model, out);
+    describe_regions(model, out);
     describe_places(model, out);
     describe_loads(model, step, out);
     out << std::flush;

@@ -25,6 +25,7 @@ namespace kedge
     , clock(scene.time)
     , checkpoints(folder)
     , log(folder, scene)
+    , supports(model)
   {
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
@@ -164,6 +165,11 @@ namespace kedge
             write_checkpoint();
             return finish("numerical_stop", "a material point has lost its pores");
           }
+        if (const std::string lost = watch_supports(); !lost.empty())
+          {
+            write_checkpoint();
+            return finish("numerical_stop", lost);
+          }
         if (stop_requested())
           {
             write_checkpoint();
@@ -252,6 +258,19 @@ namespace kedge
                    << std::endl;
     porosity_is_lost = true;
     return model.scene.pore_fluid->fluid.porosity_watch == PorosityWatch::warn;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Run<dim>::watch_supports()
+  {
+    const auto finding = supports.look(row.step, row.time, clock.finished());
+    for (const std::string &line : finding.lines)
+      if (line != finding.stop)
+        folder.log() << "  WARNING: " << line << std::endl;
+    return finding.stop;
   }
 
 

@@ -8,6 +8,7 @@
 #include <kedge/simulation/run_log.h>
 #include <kedge/simulation/run_options.h>
 #include <kedge/simulation/run_output.h>
+#include <kedge/simulation/support_watch.h>
 
 namespace kedge
 {
@@ -79,6 +80,9 @@ namespace kedge
     /** Warns of the first point without pores; false if the run is to stop there. */
     bool
     watch_porosity();
+    /** Warns of node conditions that lose their material; why the run is to stop, if it is. */
+    std::string
+    watch_supports();
     bool
     reject_step(const StepReport &report);
     void
@@ -108,6 +112,7 @@ namespace kedge
     std::unique_ptr<RunOutput<dim>> output;
     CheckpointStore<dim>            checkpoints;
     RunLog                          log;
+    SupportWatch<dim>               supports;
     double                          last_checkpoint_wall = 0.;
     std::uint64_t                   last_checkpoint_step = 0;
   };

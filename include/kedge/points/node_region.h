@@ -1,0 +1,57 @@
+#ifndef kedge_points_node_region_h
+#define kedge_points_node_region_h
+
+#include <kedge/base/expression.h>
+#include <kedge/grid/lattice.h>
+
+namespace kedge
+{
+  /** The nodes of the grid that a node condition holds: those on a side, or where its Where is
+   * true. */
+  template <int dim>
+  class NodeRegion
+  {
+  public:
+    /** @throws UserError for a Where that cannot be read. */
+    NodeRegion(const NodeConditionParameters<dim>  &condition,
+               const std::map<std::string, double> &constants)
+      : on_side(condition.on_side)
+      , side(condition.side)
+      , where(condition.on_side ? Expression(1.)
+                                : Expression(condition.where, {"x", "y", "z"}, constants))
+    {}
+
+    /** Whether a place may be in it and another not, other than by being on a side. */
+    bool
+    has_limits() const
+    {
+      return !on_side && !where.is_constant();
+    }
+
+    /** Whether its Where is true at a place; on a side: always. */
+    bool
+    holds_place(const dealii::Point<dim> &x) const
+    {
+      double values[3] = {0, 0, 0};
+      for (int d = 0; d < dim; ++d)
+        values[d] = x[d];
+      return where(values) != 0.;
+    }
+
+    bool
+    holds(const Lattice<dim> &lattice, const LatticeIndex<dim> &node) const
+    {
+      if (!on_side)
+        return holds_place(lattice.node_position(node));
+      const int direction = static_cast<int>(side / 2);
+      return node[direction] == (side % 2 == 0 ? 0 : lattice.n_cells[direction]);
+    }
+
+  private:
+    bool         on_side;
+    unsigned int side; ///< 2*direction + (0: low, 1: high)
+    Expression   where;
+  };
+} // namespace kedge
+
+#endif
