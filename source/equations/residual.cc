@@ -104,8 +104,9 @@ namespace kedge
         if (unknowns.fields[f].measure_diagonal)
           for (unsigned int e = 0; e < diagonal[f].size(); ++e)
             {
-              const double u = x.fields[f][equations[e]];
-              by_diagonal += diagonal[f][e] * diagonal[f][e] * u * u;
+              const unsigned int k = equations[e];
+              by_diagonal +=
+                std::pow(weight[k % n_components] * diagonal[f][e] * x.fields[f][k], 2);
             }
       }
     const MPI_Comm communicator = patches.front()->nodes.communicator();

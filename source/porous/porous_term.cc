@@ -87,8 +87,9 @@ namespace kedge
     auto &of_field = unknowns.fields[field];
     volume_weight  = *std::max_element(modulus_of_body.begin(), modulus_of_body.end()) /
                     patch.grid().lattice().smallest_cell_size();
-    of_field.n_components = dim + 1;
-    of_field.weight[dim]  = volume_weight;
+    of_field.n_components     = dim + 1;
+    of_field.weight[dim]      = volume_weight;
+    of_field.measure_diagonal = true; // a body that hardly moves has no stress to measure
     // blocks are known of a single field alone
     unknowns.traits.mixed         = unknowns.fields.size() == 1;
     unknowns.suspicious_condition = suspicious_condition;
