@@ -241,6 +241,81 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** Whether two shapes have a place in common, see parse_pieces(). */
+    template <int dim>
+    bool
+    touch(const Geometry<dim> &a, const Geometry<dim> &b, const dealii::BoundingBox<dim> &domain)
+    {
+      constexpr int n_parts = 64;
+
+      const auto         of_a = a.bounding_box(domain).get_boundary_points();
+      const auto         of_b = b.bounding_box(domain).get_boundary_points();
+      dealii::Point<dim> low, high;
+      int                n_places = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          low[d]                = std::max(of_a.first[d], of_b.first[d]);
+          high[d]               = std::min(of_a.second[d], of_b.second[d]);
+          const double rounding = 1e-12 * (of_a.second[d] - of_a.first[d]);
+          if (high[d] < low[d] - rounding)
+            return false;
+          n_places *= n_parts + 1;
+        }
+      for (int k = 0; k < n_places; ++k)
+        {
+          dealii::Point<dim> x;
+          for (int d = 0, rest = k; d < dim; ++d, rest /= n_parts + 1)
+            x[d] = low[d] + (rest % (n_parts + 1)) * (high[d] - low[d]) / n_parts;
+          if (a.contains(x) && b.contains(x))
+            return true;
+        }
+      return false;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::shared_ptr<Geometry<dim>>>
+  parse_pieces(const std::string                          &description,
+               const dealii::BoundingBox<dim>             &domain,
+               const std::map<std::string, double>        &constants,
+               const std::optional<std::filesystem::path> &folder)
+  {
+    std::vector<Shape<dim>> pieces;
+    for (const Term &term : split_terms(description))
+      {
+        const auto shape = parse_term<dim>(term.text, constants, folder);
+        if (pieces.empty() || term.sign == '+')
+          pieces.push_back(shape);
+        else
+          for (auto &piece : pieces)
+            piece = make_difference<dim>(piece, shape);
+      }
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (std::size_t j = i + 1; j < pieces.size();)
+        if (touch<dim>(*pieces[i], *pieces[j], domain))
+          {
+            pieces[i] = make_union<dim>(pieces[i], pieces[j]);
+            pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(j));
+            j = i + 1; // what was apart from this piece may touch it now
+          }
+        else
+          ++j;
+    return pieces;
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                       \
+  template std::vector<std::shared_ptr<Geometry<dim>>> parse_pieces( \
+    const std::string &,                                             \
+    const dealii::BoundingBox<dim> &,                                \
+    const std::map<std::string, double> &,                           \
+    const std::optional<std::filesystem::path> &);
+  KEDGE_INSTANTIATE(2)
+  KEDGE_INSTANTIATE(3)
+
   template std::shared_ptr<Geometry<2>>
   parse_geometry<2>(const std::string &,
                     const std::map<std::string, double> &,

@@ -70,9 +70,14 @@ namespace kedge
         for (int d = 0; d < dim; ++d)
           for (const int step : {-1, 1})
             {
-              LatticeIndex<dim> other = node;
+              LatticeIndex<dim> other = node, before = node;
               other[d] += step;
-              if (!std::binary_search(nodes.begin(), nodes.end(), other) ||
+              before[d] -= step;
+              const auto is_held = [&](const LatticeIndex<dim> &index) {
+                return std::binary_search(nodes.begin(), nodes.end(), index) &&
+                       region.holds(lattice, index);
+              };
+              if (!is_held(before) || !std::binary_search(nodes.begin(), nodes.end(), other) ||
                   region.holds(lattice, other))
                 continue;
               const double end =

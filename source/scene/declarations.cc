@@ -1,5 +1,6 @@
 #include <kedge/base/expression.h>
 #include <kedge/scene/body_condition_section.h>
+#include <kedge/scene/body_section.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/declarations.h>
 #include <kedge/scene/material_declarations.h>
@@ -30,7 +31,7 @@ namespace kedge
                                                     grid(),
                                                     declare_materials(allow),
                                                     declare_pore_fluid<dim>(allow),
-                                                    bodies(),
+                                                    declare_bodies(allow),
                                                     declare_contact(allow),
                                                     node_conditions(),
                                                     declare_body_conditions(allow),
@@ -125,61 +126,6 @@ namespace kedge
                   "Sides through which material leaves the grid: its points are taken out of the "
                   "run, and history.csv shows what they take with them. At other sides a point "
                   "that would leave ends the run."}}};
-      }
-
-      SectionDeclaration
-      bodies() const
-      {
-        return {
-          "Bodies",
-          "What the material points make up.",
-          SectionKind::named,
-          {{"Geometry",
-            required,
-            allow.geometry(),
-            "The region that the body fills at the start [m]."},
-           {"Material",
-            required,
-            allow.text("the name of a section of Materials"),
-            "What it is made of."},
-           {"Points per cell",
-            "2",
-            allow.counts(true),
-            "Material points per grid cell and direction [-]."},
-           {"Cut cells",
-            "clipped",
-            allow.one_of({"clipped", "whole"}),
-            "Points of sub-cells that the body's surface cuts. clipped: with volume and centre of "
-            "what lies in the body. whole: of the whole sub-cell if its centre lies in the body."},
-           {"Basis",
-            "gimp",
-            allow.one_of({"linear", "gimp", "quadratic"}),
-            "linear: points without extent. gimp: points with a domain, smoother. quadratic: "
-            "points without extent in quadratic elements (all bodies)."},
-           {"Initial velocity",
-            per_direction("0", "; "),
-            allow.expressions(coordinates("xyz"), coordinate_words("xyz")),
-            "Velocity at the start [m/s]; x, y, z is the place at the start."},
-           {"Initial stress",
-            "",
-            allow
-              .expressions(coordinates("xyz"),
-                           coordinate_words("xyz"),
-                           dim == 2 ? std::vector<std::string>{"xx", "yy", "zz", "xy"}
-                                    : std::vector<std::string>{"xx", "yy", "zz", "xy", "xz", "yz"})
-              .or_empty(),
-            "Stress at the start, the effective one of a saturated body [Pa]; x, y, z is the "
-            "place; empty: none."},
-           {"Initial pore pressure",
-            "0",
-            allow.expression(coordinates("xyz"), coordinate_words("xyz")),
-            "Of a saturated body at the start [Pa]; x, y, z is the place at the start."},
-           {"Saturated",
-            "true",
-            allow.truth(),
-            "Whether the Pore fluid, if there is one, is in it; false: a dry body, with pores at "
-            "pressure 0."},
-           {"Body force", "true", allow.truth(), "Whether the section Body force acts on it."}}};
       }
 
       SectionDeclaration

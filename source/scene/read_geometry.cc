@@ -69,6 +69,19 @@ namespace kedge
     return geometry;
   }
 
+  template <int dim>
+  std::vector<std::shared_ptr<Geometry<dim>>>
+  read_pieces(const SectionReader         &section,
+              const GridParameters<dim>   &grid,
+              const std::filesystem::path &folder)
+  {
+    return parse_pieces<dim>(section.text("Geometry"), grid_box(grid), section.constants(), folder);
+  }
+
+  template std::vector<std::shared_ptr<Geometry<2>>>
+  read_pieces(const SectionReader &, const GridParameters<2> &, const std::filesystem::path &);
+  template std::vector<std::shared_ptr<Geometry<3>>>
+  read_pieces(const SectionReader &, const GridParameters<3> &, const std::filesystem::path &);
   template std::shared_ptr<Geometry<2>>
   read_geometry(const SectionReader &, const GridParameters<2> &, const std::filesystem::path &);
   template std::shared_ptr<Geometry<3>>

@@ -1,6 +1,7 @@
 #include <kedge/base/expression.h>
 #include <kedge/base/user_errors.h>
 #include <kedge/scene/body_condition_section.h>
+#include <kedge/scene/body_section.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/parameter_reader.h>
@@ -117,41 +118,6 @@ namespace kedge
       grid.n_cells = counts<dim>(section, "Cells");
       check_grid(section, grid);
       return grid;
-    }
-
-
-
-    template <int dim>
-    std::vector<BodyParameters<dim>>
-    read_bodies(const ParameterReader       &reader,
-                const GridParameters<dim>   &grid,
-                const std::filesystem::path &folder)
-    {
-      std::vector<BodyParameters<dim>> bodies;
-      for_each_name(reader, "Bodies", [&](const SectionReader &section) {
-        BodyParameters<dim> body;
-        body.name               = section.name();
-        body.geometry           = read_geometry<dim>(section, grid, folder);
-        body.material           = find_name(reader, section, "Material", "Materials");
-        body.points_per_cell    = counts<dim>(section, "Points per cell");
-        body.clip               = section.text("Cut cells") == "clipped";
-        const std::string basis = section.text("Basis");
-        body.basis              = basis == "gimp"        ? BasisKind::gimp
-                                  : basis == "quadratic" ? BasisKind::quadratic
-                                                         : BasisKind::linear;
-        if (!bodies.empty() &&
-            (bodies[0].basis == BasisKind::quadratic) != (body.basis == BasisKind::quadratic))
-          throw section.error("Basis", "If a body is quadratic, all of them must be.");
-        body.initial_velocity      = components<dim>(section, "Initial velocity");
-        body.body_force            = section.truth("Body force");
-        body.initial_stress        = section.list("Initial stress");
-        body.initial_pore_pressure = section.text("Initial pore pressure");
-        bodies.push_back(body);
-      });
-      if (bodies.empty())
-        throw UserError(reader.place({"Bodies"}, "") +
-                        ": the scene has no body; add a subsection Bodies/<name>.");
-      return bodies;
     }
 
 

@@ -21,18 +21,32 @@ namespace kedge
              (holds(contact.first, b) && holds(contact.second, a));
     }
 
-    /** Each body takes the first field without a body that it may move apart from. */
+    /** Each body takes the first field without a body that it may move apart from: one that a
+     * contact sets apart, or another piece of what was one body. */
+    template <int dim>
     void
-    find_fields(const std::vector<ContactParameters> &contacts, Bodies &bodies)
+    find_fields(const Scene<dim> &scene, Bodies &bodies)
     {
+      const auto is_piece_of_same = [&](const std::string &a, const std::string &b) {
+        std::string of_a, of_b;
+        for (const auto &body : scene.bodies)
+          {
+            of_a = body.name == a ? body.piece_of : of_a;
+            of_b = body.name == b ? body.piece_of : of_b;
+          }
+        return !of_a.empty() && of_a == of_b;
+      };
       std::vector<std::vector<std::string>> members;
       for (const std::string &name : bodies.names)
         {
           const auto fits = [&](const std::vector<std::string> &field) {
             return std::none_of(field.begin(), field.end(), [&](const std::string &other) {
-              return std::any_of(contacts.begin(), contacts.end(), [&](const auto &contact) {
-                return is_between(contact, name, other);
-              });
+              return is_piece_of_same(name, other) ||
+                     std::any_of(scene.contacts.begin(),
+                                 scene.contacts.end(),
+                                 [&](const auto &contact) {
+                                   return is_between(contact, name, other);
+                                 });
             });
           };
           auto found = std::find_if(members.begin(), members.end(), fits);
@@ -120,7 +134,7 @@ namespace kedge
           result.soils.back().dry_storage = dry_storage / p_wave_modulus(result.materials.back());
         result.initial_pore_pressure.push_back(body.initial_pore_pressure);
       }
-    find_fields(scene.contacts, result);
+    find_fields(scene, result);
     return result;
   }
 

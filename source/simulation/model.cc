@@ -2,6 +2,7 @@
 #include <kedge/points/attachment_checks.h>
 #include <kedge/points/generation.h>
 #include <kedge/simulation/model.h>
+#include <kedge/simulation/separate_pieces.h>
 #include <kedge/solid/initial_history.h>
 #include <kedge/solid/initial_stress.h>
 
@@ -13,10 +14,10 @@ namespace kedge
   Model<dim>::Model(const Scene<dim>  &scene,
                     const MPI_Comm     communicator,
                     const LoadProgram &program)
-    : scene(scene)
+    : scene(with_separate_pieces(scene))
     , communicator(communicator)
     , scheme(scene.time)
-    , bodies(read_bodies(scene))
+    , bodies(read_bodies(this->scene))
     , points(scene.grid,
              OpenSides<dim>(scene.open_sides),
              layout_of_points<dim>(bodies,

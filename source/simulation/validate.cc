@@ -19,7 +19,7 @@ namespace kedge
                           ? scene.time.step
                           : scene.time.cfl_factor * cfl_step(model, first, scene.time.step_kind);
 
-    std::vector<std::uint64_t> points_of_body(scene.bodies.size(), 0);
+    std::vector<std::uint64_t> points_of_body(model.scene.bodies.size(), 0);
     for (const auto &point : model.generated_points())
       ++points_of_body[point.body];
     const double memory   = peak_memory(communicator);
@@ -32,11 +32,11 @@ namespace kedge
     if (!is_root)
       return;
     out << "scene:            " << (scene.title.empty() ? scene.name : scene.title) << "\n";
-    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-      out << "body:             " << scene.bodies[b].name << ", " << points_of_body[b]
-          << " material points of " << scene.materials[scene.bodies[b].material].name << "\n";
+    for (unsigned int b = 0; b < model.scene.bodies.size(); ++b)
+      out << "body:             " << model.scene.bodies[b].name << ", " << points_of_body[b]
+          << " material points of " << scene.materials[model.scene.bodies[b].material].name << "\n";
     const Lattice<dim> &lattice = model.points.grid().lattice();
-    write_volumes(out, scene.bodies, lattice, model.generated_points());
+    write_volumes(out, model.scene.bodies, lattice, model.generated_points());
     // a block row of the tangent reaches 3^dim nodes, 5^dim with GIMP
     const double per_point = sizeof(PointRecord<dim>) + sizeof(Stencil<dim>) +
                              sizeof(StressState<dim>) + sizeof(PointUpdate<dim>) + 200.;

@@ -124,3 +124,36 @@ TEST(PointsGeometry, ErrorsNameTheTermAndTheRemedy)
   EXPECT_TRUE(has(message_of<2>("box"), "name(numbers)"));
   EXPECT_TRUE(has(message_of<2>("  "), "empty"));
 }
+
+TEST(PointsGeometry, PiecesAreWhatDoesNotTouch)
+{
+  const auto n_pieces = [](const std::string &description) {
+    return parse_pieces<2>(description, dealii::BoundingBox<2>({{-9., -9.}, {9., 9.}}), {}).size();
+  };
+  EXPECT_EQ(n_pieces("box(0, 0; 1, 1)"), 1u);
+  EXPECT_EQ(n_pieces("box(0, 0; 1, 1) + box(1, 0; 2, 1)"), 1u); // a common side
+  EXPECT_EQ(n_pieces("box(0, 0; 1, 1) + box(1.001, 0; 2, 1)"), 2u);
+  EXPECT_EQ(n_pieces("box(0, 0; 1, 1) + box(1, 1; 2, 2)"), 1u); // a common corner
+  EXPECT_EQ(n_pieces("ball(0, 0; 1) + ball(2, 0; 1)"), 1u);
+  EXPECT_EQ(n_pieces("ball(0, 0; 1) + ball(1.5, 1.5; 1)"), 2u); // boxes that overlap
+  // the third joins the first two
+  EXPECT_EQ(n_pieces("box(0, 0; 1, 1) + box(2, 0; 3, 1) + box(0.5, 0.4; 2.5, 0.6)"), 1u);
+  EXPECT_EQ(n_pieces("box(0, 0; 1, 1) + box(2, 0; 3, 1) + box(4, 0; 5, 1)"), 3u);
+  EXPECT_EQ(n_pieces("implicit(x^2 + y^2 - 1) + implicit((x - 5)^2 + y^2 - 1)"), 2u);
+  EXPECT_EQ(n_pieces("implicit(x^2 + y^2 - 1) + implicit((x - 1)^2 + y^2 - 1)"), 1u);
+}
+
+TEST(PointsGeometry, PiecesStandInTheirOrderAndLackWhatIsTakenFromAll)
+{
+  const dealii::BoundingBox<3> domain({{-9., -9., -9.}, {9., 9., 9.}});
+  const auto                   pieces =
+    parse_pieces<3>("box(4, 0, 0; 5, 1, 1) + ball(0, 0, 0; 1) - box(-9, 0.5, -9; 9, 9, 9)",
+                    domain,
+                    {});
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_TRUE(pieces[0]->contains({4.5, .4, .5}));
+  EXPECT_FALSE(pieces[0]->contains({4.5, .6, .5}));
+  EXPECT_FALSE(pieces[0]->contains({0., 0., 0.}));
+  EXPECT_TRUE(pieces[1]->contains({0., .4, 0.}));
+  EXPECT_FALSE(pieces[1]->contains({0., .6, 0.}));
+}

@@ -109,6 +109,21 @@ namespace kedge
   parse_geometry(const std::string                          &description,
                  const std::map<std::string, double>        &constants,
                  const std::optional<std::filesystem::path> &folder = std::nullopt);
+
+  /**
+   * The same as parts that do not touch, in the order of their first terms: what is joined by +
+   * is one part if it has a place in common, and - takes from all that stand before it. Places in
+   * common are sought on a lattice over the box that both may fill: an overlap narrower than a
+   * 64th of it is found only if it is a common side along the axes.
+   *
+   * @param domain where implicit functions, which know no bounds, are looked at
+   */
+  template <int dim>
+  std::vector<std::shared_ptr<Geometry<dim>>>
+  parse_pieces(const std::string                          &description,
+               const dealii::BoundingBox<dim>             &domain,
+               const std::map<std::string, double>        &constants,
+               const std::optional<std::filesystem::path> &folder = std::nullopt);
 } // namespace kedge
 
 #endif

@@ -18,7 +18,8 @@ namespace kedge
   /**
    * How far a region reaches beyond the nodes that it holds, on the edges from these to
    * others of @p nodes: the largest part of an edge, 0 if it ends at nodes. A region that ends
-   * just before the next node leaves that one out on purpose and counts as 0.
+   * just before the next node leaves that one out on purpose and counts as 0, and so does an
+   * interval around a single row of nodes.
    *
    * @param nodes those of cells with material points, sorted
    */

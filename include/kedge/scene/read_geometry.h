@@ -18,6 +18,13 @@ namespace kedge
   read_geometry(const SectionReader         &section,
                 const GridParameters<dim>   &grid,
                 const std::filesystem::path &folder);
+
+  /** Its parts that do not touch, see parse_pieces(). */
+  template <int dim>
+  std::vector<std::shared_ptr<Geometry<dim>>>
+  read_pieces(const SectionReader         &section,
+              const GridParameters<dim>   &grid,
+              const std::filesystem::path &folder);
 } // namespace kedge
 
 #endif
