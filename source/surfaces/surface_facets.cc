@@ -19,7 +19,10 @@ namespace kedge
       double                  weight;
     };
 
-    /** Gauss points exact for polynomials of degree 5 on a line, 4 on a triangle (Dunavant 1985).
+    /**
+     * Gauss points exact for polynomials of degree 5 on a line, 3 on a triangle (Gauss points of
+     * two lines, one drawn together to a corner; Stroud 1971): the product of a cell's functions on
+     * a plane.
      */
     template <int dim>
     const std::vector<QuadraturePoint<dim>> &
@@ -34,14 +37,17 @@ namespace kedge
               result.push_back({{{1. - s, s}}, side == 0 ? 8. / 18. : 5. / 18.});
             }
         else
-          for (const auto &[a, weight] : {std::pair(0.445948490915965, 0.223381589678011),
-                                          std::pair(0.091576213509771, 0.109951743655322)})
-            for (unsigned int k = 0; k < 3; ++k)
-              {
-                QuadraturePoint<dim> point{{{a, a, a}}, weight};
-                point.place[k] = 1. - 2. * a;
-                result.push_back(point);
-              }
+          for (const int side : {-1, 1})
+            {
+              // of the weight 2 (1 - r): how much of the triangle lies at a distance r from its
+              // base
+              const double r = 0.4 - side * std::sqrt(0.06), weight = 0.25 + side / std::sqrt(216.);
+              for (const int across : {-1, 1})
+                {
+                  const double s = 0.5 * (1. + across / std::sqrt(3.)) * (1. - r);
+                  result.push_back({{{1. - r - s, s, r}}, weight});
+                }
+            }
         return result;
       }();
       return points;
