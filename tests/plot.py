@@ -269,6 +269,14 @@ def test_bad_input():
     assert "cauchy_stress_xx" in plot(OUTPUT / "one", "--field", "sress", "--formats", "svg", code=1)
 
 
+def test_without_matplotlib():
+    """A Python that finds no packages: what to install, and no traceback."""
+    run = subprocess.run([sys.executable, "-S", PROGRAM, OUTPUT / "one"], text=True,
+                         capture_output=True, check=False)
+    assert run.returncode == 1 and "apt-get install python3-matplotlib" in run.stderr, run.stderr
+    assert "Traceback" not in run.stderr, run.stderr
+
+
 shutil.rmtree(OUTPUT, ignore_errors=True)
 OUTPUT.mkdir(parents=True)
 test_reader()
@@ -279,4 +287,5 @@ test_derived_columns()
 test_smooth_field()
 test_element_tests()
 test_bad_input()
+test_without_matplotlib()
 print("all pictures drawn")

@@ -1,8 +1,13 @@
 """How kedge's pictures look, and the units of what they show."""
+import sys
 import textwrap
 
-import matplotlib
-
+try:
+    import matplotlib
+    import numpy  # noqa: F401  (matplotlib needs it; the other files import it themselves)
+except ModuleNotFoundError as missing:
+    sys.exit(f"kedge plot: {sys.executable} has no {missing.name}; on Debian:\n"
+             "  apt-get install python3-matplotlib python3-numpy")
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
