@@ -1,6 +1,9 @@
 # Runs that are killed and resumed.
 kedge_add_restart_test(scene.restart.outflow prm/outflow.prm KILLS 1
   SET "Output/Checkpoint every steps = 5")
+# the first checkpoints before, the last ones after the body has left with its surface
+kedge_add_restart_test(scene.restart.outflow_after_collision prm/outflow_after_collision.prm
+  KILLS 2 SET "Output/Checkpoint every steps = 5")
 kedge_add_restart_test(scene.restart prm/spinning_body.prm KILLS 3
   SET "Time/End = 10" "Output/Checkpoint every steps = 5" "Newton/Log = true"
     "Mapping/Audit = true")

@@ -277,9 +277,10 @@ set(saturated "Constants/n = 0.4" "Constants/rho_f = 1000" "Materials/block/Init
   "Pore fluid/Density = rho_f" "Pore fluid/Hydraulic conductivity = 1e-4" "Time/Scheme = newmark")
 kedge_add_scene_test(scene.outflow.saturated prm/outflow.prm SET ${saturated})
 kedge_add_scene_test(scene.outflow.saturated.2ranks prm/outflow.prm SET ${saturated} RANKS 2)
-kedge_add_scene_test(refusal.outflow_with_contact prm/block_on_incline.prm
-  SET "Grid/Open sides = right" EXPECT_EXIT 1 EXPECT_STDERR "Grid/Open sides.*Contact.*stay"
-  LABELS refusal)
+kedge_add_scene_test(scene.outflow.after_collision prm/outflow_after_collision.prm)
+kedge_add_scene_test(refusal.outflow_with_nodal_contact prm/prisms_nodes.prm
+  SET "Grid/Open sides = right" EXPECT_EXIT 1
+  EXPECT_STDERR "Contact/prisms/Method.*Grid/Open sides.*at nodes" LABELS refusal)
 
 # --- Killed and resumed: bit for bit the same ---------------------------------
 include(restarts.cmake)

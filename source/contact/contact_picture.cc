@@ -6,17 +6,27 @@ namespace kedge
   void
   ContactPicture<dim>::add_surface(const BodySurface<dim> &surface)
   {
-    if (!first_facet.emplace(&surface, facets_.size()).second)
+    const auto [entry, is_new] = numbers.emplace(&surface, surface.n_facets());
+    if (!is_new)
       return;
-    const auto  first = static_cast<unsigned int>(vertices_.size());
-    const auto &mesh  = surface.mesh();
-    vertices_.insert(vertices_.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const auto &corners : mesh.facets)
+    const auto                          &mesh = surface.mesh();
+    std::map<unsigned int, unsigned int> vertex_here;
+    for (unsigned int f = 0; f < surface.n_facets(); ++f)
       {
+        entry->second[f] = mesh.has_left(f) ? no_facet : facets_.size();
+        if (mesh.has_left(f))
+          continue;
         Facet facet;
         facet.body = static_cast<int>(surface.body);
         for (int i = 0; i < dim; ++i)
-          facet.corners[i] = first + corners[i];
+          {
+            const unsigned int v = mesh.facets[f][i];
+            const auto [known, is_first] =
+              vertex_here.emplace(v, static_cast<unsigned int>(vertices_.size()));
+            if (is_first)
+              vertices_.push_back(mesh.vertices[v]);
+            facet.corners[i] = known->second;
+          }
         facets_.push_back(facet);
       }
   }
@@ -29,7 +39,10 @@ namespace kedge
   {
     for (const ContactPlace<dim> &place : places)
       {
-        Facet     &facet     = facets_[first_facet.at(place.surface) + place.facet];
+        const std::size_t number = numbers.at(place.surface)[place.facet];
+        if (number == no_facet)
+          continue;
+        Facet     &facet     = facets_[number];
         const bool presses   = place.pressure > 0.;
         const bool is_nearer = facet.state == FacetState::alone ||
                                (presses ? place.pressure > facet.pressure

@@ -55,7 +55,8 @@ namespace kedge
   {
     if (mesh.facets.size() != surface.mesh().facets.size())
       mesh = end = surface.mesh();
-    displacements = of_step;
+    mesh.left = end.left = surface.mesh().left;
+    displacements        = of_step;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       {
         const dealii::Point<dim> &start = surface.mesh().vertices[v];
@@ -92,7 +93,7 @@ namespace kedge
       {
         const auto corners = sampled.mesh.corners(f);
         const auto x       = middle(sampled.mesh, f);
-        if (!there.point_inside(x))
+        if (sampled.mesh.has_left(f) || !there.point_inside(x))
           continue;
         const auto   known    = memory.find(f);
         const auto   previous = known == memory.end() ? search.no_facet : known->second.partner;

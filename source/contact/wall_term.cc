@@ -78,7 +78,7 @@ namespace kedge
       {
         const dealii::Point<dim> x   = middle(side, f);
         const double             gap = plane.gap(x);
-        if (gap > reach * cell_size)
+        if (gap > reach * cell_size || side.surface->mesh().has_left(f))
           continue;
         const auto outward = area_vector<dim>(side.surface->mesh().corners(f));
         if (plane.normal * outward > -towards * outward.norm())

@@ -8,6 +8,7 @@ from body_picture import choose, layout, projection
 from vtu_reader import read_pvd, read_surfaces
 
 STATES = {1: "#9a9a9a", 2: "#1f6fb4", 3: "#d1495b"} # near, sticks, slides
+NAMES = {2: "sticks", 3: "slides"}
 LONGEST = 0.12 # of the drawn pressures over the size of the bodies
 
 
@@ -27,13 +28,28 @@ def draw_bars(panel, corners, pressure, states, length):
 
 
 def draw_triangles(panel, corners, pressure, norm, axes_of_view):
-    """A surface in space, nearest facets last."""
+    """A surface in space: one looks through what is not pressed, for bodies hide what is between
+    them; the pressed facets nearest last."""
     place = corners @ axes_of_view
-    order = np.argsort(place[:, :, 2].mean(axis=1))
-    colours = plt.get_cmap("viridis")(norm(pressure[order]))
-    colours[pressure[order] <= 0] = (0.8, 0.8, 0.8, 1.0)
-    panel.add_collection(PolyCollection(place[order, :, :2], facecolors=colours,
+    pressed = pressure > 0
+    panel.add_collection(PolyCollection(place[~pressed, :, :2], facecolors="#9a9a9a18",
+                                        edgecolors="#00000020", linewidths=0.2))
+    order = np.flatnonzero(pressed)[np.argsort(place[pressed, :, 2].mean(axis=1))]
+    panel.add_collection(PolyCollection(place[order, :, :2],
+                                        facecolors=plt.get_cmap("viridis")(norm(pressure[order])),
                                         edgecolors="#00000030", linewidths=0.2))
+
+
+def explain_bars(panel, states, pressures, longest):
+    """A legend beside a panel of what bars there are."""
+    seen = set()
+    for (_, fields), pressure in zip(states, pressures):
+        seen.update(int(state) for state in fields["state"][pressure > 0, 0])
+    handles = [plt.Rectangle((0, 0), 1, 1, color=STATES[state]) for state in sorted(seen)]
+    names = [NAMES[state] for state in sorted(seen)]
+    panel.legend(handles, names, loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8,
+                 title_fontsize=8,
+                 title=f"longest bar\n{longest}" if seen else "nothing presses\nat these times")
 
 
 def draw_contact(run, options):
@@ -48,8 +64,10 @@ def draw_contact(run, options):
     view = projection(options.view)
     in_space = run.dimension() == 3
     flat = [(corners @ view if in_space else corners)[:, :, :2] for corners, _ in states]
-    low = np.min([place.min(axis=(0, 1)) for place in flat], axis=0)
-    high = np.max([place.max(axis=(0, 1)) for place in flat], axis=0)
+    everything = np.concatenate([place.reshape(-1, 2) for place in flat])
+    if len(everything) == 0: # all of it has left the grid
+        return None
+    low, high = everything.min(axis=0), everything.max(axis=0)
     pressures = [fields["contact_pressure"][:, 0] for _, fields in states]
     factor, unit = style.handy("Pa", pressures, options.stress_unit)
     largest = max(max(values.max(initial=0.0) for values in pressures), 1e-300)
@@ -78,9 +96,6 @@ def draw_contact(run, options):
         figure.colorbar(plt.cm.ScalarMappable(norm=norm, cmap="viridis"), ax=axes, shrink=0.8,
                         aspect=30, label=style.label("contact pressure", unit))
     else:
-        handles = [plt.Rectangle((0, 0), 1, 1, color=STATES[state]) for state in (2, 3)]
-        axes.flat[len(states) - 1].legend(handles, ["sticks", "slides"], loc="upper right",
-                                          fontsize=8, title_fontsize=8,
-                                          title=f"longest bar {factor * largest:.3g} {unit}")
+        explain_bars(axes[0, -1], states, pressures, f"{factor * largest:.3g} {unit}")
     figure.suptitle(run.title())
     return figure

@@ -3,8 +3,12 @@
 namespace kedge
 {
   template <int dim>
-  OutflowTerm<dim>::OutflowTerm(const std::vector<Soil> &soils)
+  OutflowTerm<dim>::OutflowTerm(const std::vector<Soil>                    &soils,
+                                const std::vector<const MotionTerm<dim> *> &motions,
+                                const MPI_Comm                              communicator)
     : soils(soils)
+    , motions(motions)
+    , communicator(communicator)
   {}
 
 
@@ -27,6 +31,21 @@ namespace kedge
     mass = ledger.declare({"outflow_mass", "kg", Section::state, Kind::total});
     n_points =
       ledger.declare({"outflow_points", "", Section::state, Kind::total, Role::none, "", true});
+  }
+
+
+
+  template <int dim>
+  Answer
+  OutflowTerm<dim>::finish(const Trial<dim> &)
+  {
+    unsigned int n_staying = 0;
+    for (const MotionTerm<dim> *motion : motions)
+      n_staying += motion->n_staying();
+    if (dealii::Utilities::MPI::max(n_staying, communicator) > 0)
+      return {};
+    return Answer::failure("the last material points leave the grid through its open sides; "
+                           "nothing is left to compute (Time/End may be earlier)");
   }
 
 

@@ -323,9 +323,10 @@ namespace kedge
         set_elements(reader, scene);
       });
       errors.attempt([&]() {
-        if (!scene.open_sides.empty() && !scene.contacts.empty())
-          throw SectionReader(reader, {"Grid"})
-            .error("Open sides", "Bodies that may move apart (Contact) must stay in the grid.");
+        for (const ContactParameters &contact : scene.contacts)
+          if (!scene.open_sides.empty() && is_nodal(contact.method))
+            throw SectionReader(reader, {"Contact", contact.name})
+              .error("Method", "With Grid/Open sides bodies must not be in contact at nodes.");
       });
       errors.attempt([&]() {
         check_initial_stress(reader, scene);

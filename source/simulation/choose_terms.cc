@@ -5,7 +5,6 @@
 #include <kedge/contact/nodal_law_term.h>
 #include <kedge/contact/ray_contact_term.h>
 #include <kedge/contact/wall_term.h>
-#include <kedge/porous/outflow_term.h>
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
 #include <kedge/solid/body_condition_term.h>
@@ -34,7 +33,7 @@ namespace kedge
 
 
   template <int dim>
-  void
+  const MotionTerm<dim> &
   Model<dim>::choose_terms(const unsigned int field, const LoadProgram &program)
   {
     Field<dim>       &here  = *fields[field];
@@ -73,8 +72,7 @@ namespace kedge
       }
     if (scene.pore_fluid)
       choose_porous_terms(field, loads, ghosts, program);
-    if (open_sides.any())
-      add_term(std::make_unique<OutflowTerm<dim>>(bodies.soils));
+    return motion;
   }
 
 
@@ -313,7 +311,8 @@ namespace kedge
                                                          fields[bodies.field[b]]->patch,
                                                          contact ? spacing : default_spacing * h,
                                                          contact,
-                                                         sides)));
+                                                         sides,
+                                                         OpenSides<dim>(scene.open_sides))));
       }
   }
 
@@ -435,10 +434,11 @@ namespace kedge
       law.alpha));
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                     \
-  template void Model<dim>::choose_terms(const unsigned int, const LoadProgram &); \
-  template void Model<dim>::choose_surface_terms();                                \
-  template void Model<dim>::choose_contact_terms();
+#define KEDGE_INSTANTIATE(dim)                                                   \
+  template const MotionTerm<dim> &Model<dim>::choose_terms(const unsigned int,   \
+                                                           const LoadProgram &); \
+  template void                   Model<dim>::choose_surface_terms();            \
+  template void                   Model<dim>::choose_contact_terms();
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 } // namespace kedge

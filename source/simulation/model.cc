@@ -1,6 +1,7 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/points/attachment_checks.h>
 #include <kedge/points/generation.h>
+#include <kedge/porous/outflow_term.h>
 #include <kedge/simulation/model.h>
 #include <kedge/simulation/separate_pieces.h>
 #include <kedge/solid/initial_history.h>
@@ -27,10 +28,13 @@ namespace kedge
   {
     make_fields(program);
     choose_surface_terms();
+    std::vector<const MotionTerm<dim> *> motions;
     for (unsigned int field = 0; field < fields.size(); ++field)
-      choose_terms(field, program);
+      motions.push_back(&choose_terms(field, program));
     n_field_terms = terms.size() - surface_terms.size();
     choose_contact_terms();
+    if (!scene.open_sides.empty())
+      terms.push_back(std::make_unique<OutflowTerm<dim>>(bodies.soils, motions, communicator));
     declare();
   }
 

@@ -105,6 +105,43 @@ namespace kedge
 
 
 
+  /** Marks the facets that have left through open sides. */
+  template <int dim>
+  void
+  BodySurface<dim>::let_out(const std::vector<double> &filling)
+  {
+    const bool no_points = std::all_of(filling.begin(), filling.end(), [](const double full) {
+      return full == 0.;
+    });
+    for (unsigned int f = 0; f < n_facets(); ++f)
+      {
+        dealii::Point<dim> middle;
+        for (const unsigned int v : mesh_.facets[f])
+          middle += mesh_.vertices[v] / dim;
+        if (!no_points && !open_sides.let_out(patch.grid().lattice(), middle))
+          continue;
+        mesh_.left.resize(n_facets());
+        mesh_.left[f] = true;
+      }
+  }
+
+
+
+  /** Those of facets that have not left. */
+  template <int dim>
+  std::vector<bool>
+  BodySurface<dim>::vertices_that_stay() const
+  {
+    std::vector<bool> result(n_vertices(), mesh_.left.empty());
+    for (unsigned int f = 0; f < n_facets(); ++f)
+      if (!mesh_.has_left(f))
+        for (const unsigned int v : mesh_.facets[f])
+          result[v] = true;
+    return result;
+  }
+
+
+
   template <int dim>
   void
   BodySurface<dim>::find_roots()
@@ -112,6 +149,9 @@ namespace kedge
     const auto               &lattice = patch.grid().lattice();
     const auto               &window  = patch.window();
     const std::vector<double> filling = fillings();
+    if (open_sides.any())
+      let_out(filling);
+    const std::vector<bool> stays = vertices_that_stay();
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(patch.grid().communicator());
     std::map<unsigned int, unsigned int> number_of_cell;
     roots.clear();
@@ -119,6 +159,8 @@ namespace kedge
     weights.resize(n_vertices());
     for (unsigned int v = 0; v < n_vertices(); ++v)
       {
+        if (!stays[v])
+          continue;
         const dealii::Point<dim> &x    = mesh_.vertices[v];
         const LatticeIndex<dim>   cell = root_cell(x, filling, search_radius);
         if (patch.grid().cell_owner(cell) != rank)
@@ -215,6 +257,9 @@ namespace kedge
     for (const auto &facet : mesh_.facets)
       result.insert(result.end(), facet.begin(), facet.end());
     result.insert(result.end(), reference_areas.begin(), reference_areas.end());
+    for (unsigned int f = 0; f < n_facets(); ++f)
+      if (mesh_.has_left(f))
+        result.push_back(f);
     return result;
   }
 
@@ -228,7 +273,8 @@ namespace kedge
     mesh_.vertices.resize(static_cast<std::size_t>(saved[0]));
     mesh_.facets.resize(static_cast<std::size_t>(saved[1]));
     reference_areas.resize(mesh_.facets.size());
-    AssertDimension(saved.size(), 2 + dim * n_vertices() + (dim + 1) * n_facets());
+    Assert(saved.size() >= 2 + dim * n_vertices() + (dim + 1) * n_facets(),
+           dealii::ExcInternalError());
     auto next = saved.begin() + 2;
     for (auto &x : mesh_.vertices)
       for (int d = 0; d < dim; ++d)
@@ -238,6 +284,9 @@ namespace kedge
         vertex = static_cast<unsigned int>(*next++);
     for (double &area : reference_areas)
       area = *next++;
+    mesh_.left.assign(next == saved.end() ? 0 : n_facets(), false);
+    for (; next != saved.end(); ++next)
+      mesh_.left[static_cast<std::size_t>(*next)] = true;
   }
 
   template class BodySurface<2>;

@@ -135,7 +135,7 @@ namespace kedge
     for (unsigned int f = 0; f < mesh.facets.size(); ++f)
       {
         const auto box = box_of<dim>(mesh.corners(f));
-        if (boost::geometry::intersects(box, region))
+        if (!mesh.has_left(f) && boost::geometry::intersects(box, region))
           found.emplace_back(box, f);
       }
     n_found = static_cast<unsigned int>(found.size());
@@ -158,7 +158,7 @@ namespace kedge
         const auto corners = mesh.corners(f);
         normals[f]         = area_vector<dim>(corners);
         const double area  = normals[f].norm();
-        if (!(area > 0.))
+        if (!(area > 0.) || mesh.has_left(f))
           continue;
         normals[f] /= area;
         for (int i = 0; i < dim; ++i)

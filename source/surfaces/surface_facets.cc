@@ -234,6 +234,8 @@ namespace kedge
     std::vector<Candidate> result;
     for (const Part &part : here.parts)
       {
+        if (here.surface->mesh().has_left(part.facet))
+          continue;
         const auto corners = here.surface->mesh().corners(part.facet);
         const auto start   = here.start.corners(part.facet);
         const auto area = area_vector<dim>(corners), area_at_start = area_vector<dim>(start);

@@ -1,9 +1,12 @@
 // Points that leave through open sides of the grid, and what the books say of them.
 #include "../scene/scene_text.h"
 
+#include <kedge/contact/contact_picture.h>
 #include <kedge/simulation/step.h>
 
 #include <gtest/gtest.h>
+
+#include <set>
 
 using namespace kedge;
 using namespace scene_tests;
@@ -40,6 +43,46 @@ subsection Time
 end
 )";
 
+  // Two blocks that collide while both fly out of the grid: the touching faces cross the open side
+  // within the time that the wave takes through a block and back, 28 ms.
+  const std::string flying_pair = R"(set Dimension = 2
+subsection Grid
+  set Extent = 2, 2
+  set Cells = 8, 8
+  set Open sides = right
+end
+subsection Materials
+  subsection rubber
+    set Density = 1000
+    set Young's modulus = 1e6
+    set Poisson's ratio = 0.3
+  end
+end
+subsection Bodies
+  subsection lower
+    set Geometry = box(0.75, 0.3; 1.75, 0.8)
+    set Material = rubber
+    set Initial velocity = 5; 1
+  end
+  subsection upper
+    set Geometry = box(0.65, 0.9; 1.7, 1.4)
+    set Material = rubber
+    set Initial velocity = 5; -1
+  end
+end
+subsection Contact
+  subsection pair
+    set First = lower
+    set Second = upper
+    set Friction coefficient = 0.2
+  end
+end
+subsection Time
+  set End = 1
+  set Step = 0.01
+end
+)";
+
   const std::vector<std::string> saturated = {"Pore fluid/Density = 1000",
                                               "Pore fluid/Bulk modulus = 1e8",
                                               "Pore fluid/Hydraulic conductivity = 1e-3",
@@ -49,19 +92,20 @@ end
                                               "Time/Scheme = midpoint"};
 
   Scene<2>
-  scene_of(const std::vector<std::string> &settings)
+  scene_of(const std::string &text, const std::vector<std::string> &settings)
   {
-    ParameterFile file = parse(flying_block);
+    ParameterFile file = parse(text);
     for (const std::string &setting : settings)
       file.set(setting);
     return read_scene<2>(file);
   }
 
-  /** A run of the block; what it had at the start. */
+  /** A run of a scene; what it had at the start. */
   struct Flight
   {
-    explicit Flight(const std::vector<std::string> &settings)
-      : model(scene_of(settings), MPI_COMM_WORLD)
+    explicit Flight(const std::vector<std::string> &settings,
+                    const std::string              &text = flying_block)
+      : model(scene_of(text, settings), MPI_COMM_WORLD)
       , step(model)
     {
       model.create_points();
@@ -160,6 +204,76 @@ TEST(SimulationOutflowMpi, TheLastPointsEndTheRun)
   EXPECT_FALSE(report.accepted);
   EXPECT_NE(report.cause.find("nothing is left to compute"), std::string::npos) << report.cause;
   EXPECT_GT(flight("n_points"), 0.);
+}
+
+
+
+// As above, with facets that are in contact when they leave, and the work stored in them.
+TEST(SimulationOutflow, SurfacesInContactLeaveWithTheirBodies)
+{
+  Flight flight({}, flying_pair);
+  double pressed = 0.;
+  for (unsigned int k = 0; k < 12; ++k)
+    {
+      ASSERT_TRUE(flight.fly(1).accepted);
+      if (flight("outflow_points") > 0.)
+        pressed = std::max(pressed, flight("contact_pressure_pair"));
+      EXPECT_NEAR(flight("energy_error"), 0., 1e-9 * flight.energy) << k;
+      for (const std::string component : {"x", "y"})
+        EXPECT_NEAR(flight("outflow_momentum_" + component) +
+                      flight("linear_momentum_" + component),
+                    flight.start["linear_momentum_" + component],
+                    1e-9 * flight.start["mass"] * 5.)
+          << k;
+    }
+  EXPECT_GT(flight("outflow_points"), 10.);
+  EXPECT_GT(pressed, 1e3); // or it would not be tested
+  EXPECT_GT(flight("contact_energy_released"), 1e-6 * flight.energy);
+}
+
+
+
+// What is shown of surfaces is what is left of them: within the grid, but for the step that an
+// accepted step may bring the corners of the last facets out.
+TEST(SimulationOutflow, PicturesShowWhatIsLeftOfSurfaces)
+{
+  Flight     flight({}, flying_pair);
+  const auto picture_of = [](const Flight &here) {
+    ContactPicture<2> picture;
+    for (const auto &term : here.model.terms)
+      if (const auto *contact = dynamic_cast<const ShownContact<2> *>(term.get()))
+        contact->show(picture);
+    return picture;
+  };
+  const std::size_t n_at_start = picture_of(flight).facets().size();
+  ASSERT_TRUE(flight.fly(12).accepted);
+  const ContactPicture<2> picture = picture_of(flight);
+  EXPECT_LT(picture.facets().size(), n_at_start - 10);
+  EXPECT_GT(picture.facets().size(), 10u);
+  std::set<unsigned int> used;
+  for (const auto &facet : picture.facets())
+    {
+      used.insert(facet.corners.begin(), facet.corners.end());
+      const auto middle =
+        0.5 * (picture.vertices()[facet.corners[0]] + picture.vertices()[facet.corners[1]]);
+      EXPECT_LE(middle[0], 2.);
+    }
+  EXPECT_EQ(used.size(), picture.vertices().size());
+}
+
+
+
+TEST(SimulationOutflow, OneBodyMayLeaveAltogetherAndNotBoth)
+{
+  Flight           flight({"Bodies/upper/Initial velocity = 1; 0"}, flying_pair);
+  const StepReport first = flight.fly(40);
+  ASSERT_TRUE(first.accepted) << first.cause;
+  EXPECT_EQ(flight("kinetic_energy_lower"), 0.);
+  EXPECT_GT(flight("mass"), 0.);
+  EXPECT_EQ(flight("contact_energy"), 0.);
+  const StepReport last = flight.fly(160);
+  EXPECT_FALSE(last.accepted);
+  EXPECT_NE(last.cause.find("nothing is left to compute"), std::string::npos) << last.cause;
 }
 
 

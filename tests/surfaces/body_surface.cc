@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <set>
 
 using namespace kedge;
 using namespace kedge::test;
@@ -22,10 +24,10 @@ namespace
   template <int dim>
   struct CarriedBox
   {
-    CarriedBox()
+    explicit CarriedBox(const OpenSides<dim> &open_sides = OpenSides<dim>())
       : cloud({BasisKind::gimp}, 3, 5, 4)
       , patch(cloud.grid, parameters(cloud), NodeConditions<dim>({}, {}))
-      , surface("a", 0, 0, patch)
+      , surface("a", 0, 0, patch, open_sides)
     {
       // the cloud's volumes fill a cell by about a tenth: well-filled ones are made by hand
       patch.reinit(cloud.points, [](std::vector<unsigned char> &) {});
@@ -126,6 +128,55 @@ TYPED_TEST(SurfacesBodySurface, ASavedSurfaceIsTheSameBitForBit)
   EXPECT_EQ(other.surface.mesh().vertices, box.surface.mesh().vertices);
   EXPECT_EQ(other.surface.reference_area(3), box.surface.reference_area(3));
 }
+
+// A surface that is pushed over the open side x high: facets whose middle is beyond it have left,
+// for good, their own vertices stay where they are, and a checkpoint knows.
+TYPED_TEST(SurfacesBodySurface, FacetsLeaveThroughOpenSidesForGood)
+{
+  constexpr int        dim = TypeParam::value;
+  const OpenSides<dim> open({1});
+  CarriedBox<dim>      box(open);
+  BodySurface<dim>    &surface = box.surface;
+  const Lattice<dim>  &lattice = box.cloud.grid.lattice();
+  const auto           middle  = [&](const unsigned int f) {
+    dealii::Point<dim> x;
+    for (const auto &corner : surface.mesh().corners(f))
+      x += corner / dim;
+    return x;
+  };
+  EXPECT_TRUE(surface.mesh().left.empty());
+  dealii::Tensor<1, dim> push;
+  push[0] = lattice.upper(0) - lattice.origin[0] - 4.9 * lattice.h[0];
+  surface.commit(std::vector<dealii::Tensor<1, dim>>(surface.n_vertices(), push));
+  surface.find_roots();
+  std::set<unsigned int> kept_vertices;
+  unsigned int           n_left = 0;
+  for (unsigned int f = 0; f < surface.n_facets(); ++f)
+    {
+      EXPECT_EQ(surface.mesh().has_left(f), middle(f)[0] > lattice.upper(0)) << f;
+      n_left += surface.mesh().has_left(f);
+      if (!surface.mesh().has_left(f))
+        kept_vertices.insert(surface.mesh().facets[f].begin(), surface.mesh().facets[f].end());
+    }
+  EXPECT_GT(n_left, 0u);
+  EXPECT_LT(n_left, surface.n_facets());
+
+  std::vector<dealii::Tensor<1, dim>> u;
+  const std::vector<double>           nodal(std::size_t(box.patch.nodes.n_local()) * dim, 0.3);
+  surface.interpolate(nodal, u);
+  for (unsigned int v = 0; v < surface.n_vertices(); ++v)
+    EXPECT_NEAR(u[v][0], kept_vertices.count(v) > 0 ? 0.3 : 0., 1e-13) << v;
+
+  // pushed back into the grid, what has left does not come back; nor does it in a resumed run
+  surface.commit(std::vector<dealii::Tensor<1, dim>>(surface.n_vertices(), -push));
+  surface.find_roots();
+  EXPECT_EQ(std::count(surface.mesh().left.begin(), surface.mesh().left.end(), true), n_left);
+  CarriedBox<dim> other(open);
+  other.surface.restore(surface.save());
+  EXPECT_EQ(other.surface.mesh().left, surface.mesh().left);
+}
+
+
 
 TEST(SurfacesSeed, ShapesAreKnownAndOthersAreCutOut)
 {

@@ -21,13 +21,15 @@ namespace kedge
   /**
    * Surfaces in contact as they are after a step, as plain arrays: vertices, facets, and for each
    * facet what the contacts have done to it. What several contacts do to one facet is added up;
-   * gap, partner and state are those of the one that presses most, or is nearest.
+   * gap, partner and state are those of the one that presses most, or is nearest. What has left the
+   * grid is not in it.
    */
   template <int dim>
   class ContactPicture
   {
   public:
-    static constexpr int no_partner = -1, wall = -2;
+    static constexpr int         no_partner = -1, wall = -2;
+    static constexpr std::size_t no_facet = static_cast<std::size_t>(-1);
 
     struct Facet
     {
@@ -61,9 +63,10 @@ namespace kedge
     }
 
   private:
-    std::vector<dealii::Point<dim>>                 vertices_;
-    std::vector<Facet>                              facets_;
-    std::map<const BodySurface<dim> *, std::size_t> first_facet;
+    std::vector<dealii::Point<dim>> vertices_;
+    std::vector<Facet>              facets_;
+    /** Of each surface the numbers of its facets here; no_facet of those that have left. */
+    std::map<const BodySurface<dim> *, std::vector<std::size_t>> numbers;
   };
 
   /** A contact of which pictures can be made. */

@@ -19,6 +19,15 @@ namespace kedge
   {
     std::vector<dealii::Point<dim>>            vertices;
     std::vector<std::array<unsigned int, dim>> facets;
+    /** Of each facet, whether it has left the grid with its material; empty if none has. Those
+     * that have keep their number and are where they were last, but touch nothing any more. */
+    std::vector<bool> left;
+
+    bool
+    has_left(const unsigned int facet) const
+    {
+      return !left.empty() && left[facet];
+    }
 
     std::array<dealii::Point<dim>, dim>
     corners(const unsigned int facet) const;

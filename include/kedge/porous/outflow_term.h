@@ -3,6 +3,7 @@
 
 #include <kedge/equations/term.h>
 #include <kedge/porous/pore_points.h>
+#include <kedge/transfer/motion_term.h>
 
 namespace kedge
 {
@@ -19,8 +20,13 @@ namespace kedge
   class OutflowTerm : public Term<dim>
   {
   public:
-    /** @param soils one per body of saturated scenes; else empty */
-    explicit OutflowTerm(const std::vector<Soil> &soils);
+    /**
+     * @param soils   one per body of saturated scenes; else empty
+     * @param motions of all fields, which stand before this term
+     */
+    OutflowTerm(const std::vector<Soil>                    &soils,
+                const std::vector<const MotionTerm<dim> *> &motions,
+                const MPI_Comm                              communicator);
 
     std::string
     name() const override
@@ -31,12 +37,18 @@ namespace kedge
     void
     declare_books(Ledger &ledger) override;
 
+    /** Refuses a step after which no field has a point left (collective). */
+    Answer
+    finish(const Trial<dim> &trial) override;
+
     void
     book_outflow(const std::vector<PointRecord<dim>> &gone, Ledger &ledger) const override;
 
   private:
-    const std::vector<Soil> soils;
-    Ledger::Index           energy = 0, momentum[dim] = {}, mass = 0, n_points = 0, fluid_mass = 0;
+    const std::vector<Soil>                    soils;
+    const std::vector<const MotionTerm<dim> *> motions;
+    const MPI_Comm                             communicator;
+    Ledger::Index energy = 0, momentum[dim] = {}, mass = 0, n_points = 0, fluid_mass = 0;
   };
 } // namespace kedge
 

@@ -69,7 +69,7 @@ namespace kedge
   private:
     void
     make_fields(const LoadProgram &program);
-    void
+    const MotionTerm<dim> &
     choose_terms(const unsigned int field, const LoadProgram &program);
     LoadTerm<dim> &
     choose_loads(const unsigned int field, MotionTerm<dim> &motion, const LoadProgram &program);

@@ -3,6 +3,7 @@
 
 #include <kedge/fields/patch.h>
 #include <kedge/geometry/surface_mesh.h>
+#include <kedge/grid/open_sides.h>
 
 namespace kedge
 {
@@ -13,6 +14,9 @@ namespace kedge
    * = x. Rigid motions are therefore followed to round-off, and forces that act on vertices come to
    * the nodes with their resultant and their moment, and with nothing for nodes that next to no
    * mass belongs to. What a step tries is not kept here; commit() moves the surface.
+   *
+   * Facets whose middle is beyond an open side of the grid have left it with their material, and so
+   * have all once the body has no points left. They stay where they were and act on nothing.
    *
    * Every rank holds the whole surface. The nodes of a root cell, and with them the vertices that
    * follow it, are known to the rank that owns the cell.
@@ -34,22 +38,26 @@ namespace kedge
     /** In so many cells around a vertex a root is searched; without one the fullest serves. */
     static constexpr int search_radius = 2;
 
-    /** @param field number of the field, whose patch must last as long as this */
-    BodySurface(const std::string &body_name,
-                const unsigned int body,
-                const unsigned int field,
-                const Patch<dim>  &patch)
+    /** @param field      number of the field, whose patch must last as long as this
+     *  @param open_sides of the grid */
+    BodySurface(const std::string    &body_name,
+                const unsigned int    body,
+                const unsigned int    field,
+                const Patch<dim>     &patch,
+                const OpenSides<dim> &open_sides = OpenSides<dim>())
       : body_name(body_name)
       , body(body)
       , field(field)
       , patch(patch)
+      , open_sides(open_sides)
     {}
 
     /** Takes its vertices and facets. */
     void
     seed(const SurfaceMesh<dim> &seeded);
 
-    /** Finds the root cells in the configuration that the patch has just read (collective). */
+    /** Finds the root cells in the configuration that the patch has just read, and the facets that
+     * have left (collective). */
     void
     find_roots();
 
@@ -126,11 +134,16 @@ namespace kedge
 
     std::vector<double>
     fillings() const;
+    void
+    let_out(const std::vector<double> &filling);
+    std::vector<bool>
+    vertices_that_stay() const;
     LatticeIndex<dim>
     root_cell(const dealii::Point<dim>  &x,
               const std::vector<double> &filling,
               const int                  radius) const;
 
+    const OpenSides<dim>                       open_sides;
     SurfaceMesh<dim>                           mesh_;
     std::vector<double>                        reference_areas;
     std::vector<Corners>                       roots; ///< local nodes of the root cells in use here

@@ -21,6 +21,7 @@ namespace kedge
      * @param spacing  of the vertices [m]
      * @param contact  whether it is needed whatever its sides are like
      * @param sides    those on which loads act, see SurfaceParameters
+     * @param open_sides of the grid
      */
     SurfaceTerm(const BodyParameters<dim>       &body,
                 const unsigned int               body_index,
@@ -28,8 +29,9 @@ namespace kedge
                 const Patch<dim>                &patch,
                 const double                     spacing,
                 const bool                       contact,
-                const std::vector<unsigned int> &sides)
-      : surface_(body.name, body_index, field, patch)
+                const std::vector<unsigned int> &sides,
+                const OpenSides<dim>            &open_sides = OpenSides<dim>())
+      : surface_(body.name, body_index, field, patch, open_sides)
       , geometry(body.geometry)
       , is_clipped(body.clip)
       , spacing(spacing)

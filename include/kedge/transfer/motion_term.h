@@ -48,10 +48,18 @@ namespace kedge
       return point_displacements;
     }
 
+    /** How many of this rank's points stay in the grid in the step that finish() has seen; found
+     * if it has open sides. */
+    unsigned int
+    n_staying() const
+    {
+      return n_staying_;
+    }
+
   private:
-    /** Whether points would stay in the grid; collective. */
-    Answer
-    check_that_some_stay() const;
+    /** How many points stay in the grid. */
+    unsigned int
+    count_staying() const;
     /** Why a point cannot move as far as the equations say. */
     std::string
     describe_jump(const unsigned int slot) const;
@@ -68,6 +76,7 @@ namespace kedge
     MotionTransfer<dim>                *transfer;
     const OpenSides<dim>                open_sides;
     std::vector<dealii::Tensor<1, dim>> point_displacements;
+    unsigned int                        n_staying_ = 0;
     Columns                             columns{};
   };
 } // namespace kedge
