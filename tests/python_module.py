@@ -129,6 +129,26 @@ def test_same_as_program():
     assert abs(ratio - 1.0102) < 1e-4
 
 
+def test_results_of_the_program():
+    """Tables of a run that the program has done; a wrong name says which are like it."""
+    results = kedge.Results(OUTPUT / "program")
+    same_histories(table(OUTPUT / "program/history.csv"), results.history)
+    assert results.summary["status"] == "finished" and results.probes == {}
+    assert results.checks == results.summary["checks"]
+    with kedge.Run(bar()) as run:
+        for columns in (results.history, run.history):
+            try:
+                columns["reaction_wall"]
+                raise AssertionError("no error")
+            except KeyError as error:
+                assert "did you mean reaction_wall_x" in str(error), error
+    try:
+        kedge.Results(OUTPUT / "nowhere")
+        raise AssertionError("no error")
+    except FileNotFoundError as error:
+        assert "history.csv" in str(error), error
+
+
 def test_stop_and_resume():
     """A callback that returns False; a checkpoint, from which another run goes on."""
     with kedge.Run(bar(), OUTPUT / "whole") as whole:

@@ -81,6 +81,11 @@ def test_wrong_sweeps():
                               "is no quantity")):
         assert words in sweep("press.prm", *arguments, "-o", "wrong", code=1)
     assert "no scene" in sweep("nowhere.prm", "-s", "a = 1, 2", code=1)
+    # a column that no run writes is known once the first one has ended, not when all have
+    said = sweep("press.prm", "-s", "Constants/p = 1, 2, 3, 4, 5", "-q", "last(history.load)",
+                 "-j", "1", "-o", "unknown", code=1)
+    assert "has no column 'load'" in said, said
+    assert len(list((OUTPUT / "unknown").glob("00*"))) <= 2, said
 
 
 shutil.rmtree(OUTPUT, ignore_errors=True)

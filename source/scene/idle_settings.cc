@@ -77,6 +77,21 @@ namespace kedge
                  {"Smallest filling"},
                  "but with Stabilisation/Method = aggregation.");
     }
+
+    /** Who writes a section of Contact mostly wants contact. */
+    void
+    add_of_contact(const ParameterReader                &reader,
+                   const std::vector<ContactParameters> &contacts,
+                   IdleSettings                         &idle)
+    {
+      for (const ContactParameters &contact : contacts)
+        if (contact.method == ContactMethod::none &&
+            reader.text({"Contact", contact.name}, "Method") != "none")
+          idle.lines.push_back(
+            "Contact/" + contact.name +
+            " gives no law: its bodies pass through each other. To let them touch, give a "
+            "Friction coefficient (0: no friction); if they are to pass, say Method = none.");
+    }
   } // namespace
 
 
@@ -99,6 +114,7 @@ namespace kedge
           return body.body_force;
         }))
       idle.add({"Body force"}, {"Acceleration"}, "on bodies with Body force = false.");
+    add_of_contact(reader, scene.contacts, idle);
     for (std::size_t m = 0; m < scene.materials.size(); ++m)
       if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const auto &body) {
             return body.material == m;

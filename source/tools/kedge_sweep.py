@@ -132,6 +132,8 @@ class RunOfSweep:
                            else done.stderr.strip())
         print(f"{self.folder.name}: {self.status.splitlines()[0] if self.status else self.code}",
               flush=True)
+        for quantity in self.arg.quantity: # a wrong one is told before all the others have run
+            self.value(quantity)
         return self
 
     def collect(self, quantities):
@@ -234,7 +236,11 @@ def sweep(arg):
     print(f"{len(runs)} runs, {min(arg.jobs, len(runs))} at a time, into {output}", flush=True)
     output.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(arg.jobs) as pool:
-        list(pool.map(RunOfSweep.run, runs))
+        try:
+            list(pool.map(RunOfSweep.run, runs))
+        except Wrong:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
     for run in runs:
         run.collect(arg.quantity)
     write_table(runs, swept, output / "sweep.csv")

@@ -216,6 +216,27 @@ TEST(SceneRead, SettingsWithoutEffectAreSaid)
                {"Bodies/beam/Initial pore pressure = 1e3", "The body is dry"});
 }
 
+// Who writes a section of Contact without more has bodies that pass through each other: said,
+// unless it is asked for or there is a law.
+TEST(SceneRead, ContactWithoutALawIsSaid)
+{
+  const auto lines = [](const std::vector<std::string> &settings) {
+    ParameterFile file = parse(full_scene);
+    for (const std::string setting : {"Contact/pair/First = beam", "Contact/pair/Second = ball"})
+      file.set(setting);
+    for (const std::string &setting : settings)
+      file.set(setting);
+    std::string text;
+    for (const std::string &line : idle_settings(file, read_scene<2>(file)))
+      text += line + "\n";
+    return text;
+  };
+  const std::string said = "Contact/pair gives no law: its bodies pass through each other";
+  expect_parts(lines({}), {said});
+  for (const std::string setting : {"Method = none", "Friction coefficient = 0"})
+    EXPECT_EQ(lines({"Contact/pair/" + setting}).find(said), std::string::npos) << setting;
+}
+
 TEST(ScenePrintParameters, OneSectionAloneOrJson)
 {
   std::ostringstream time, json;

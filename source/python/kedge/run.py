@@ -1,6 +1,5 @@
 """A run of a scene, step by step or to its end."""
 import atexit
-import csv
 import json
 import shutil
 import tempfile
@@ -11,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from . import _core
+from .results import read_table, unknown_column
 from .scene import Scene
 
 _FINISHED, _USER_ERROR, _NUMERICAL_STOP, _INTERRUPTED = range(4)
@@ -39,6 +39,8 @@ class _History(Mapping):
         self._n_rows += 1
 
     def __getitem__(self, name):
+        if name not in self._place:
+            raise KeyError(unknown_column(name, self._place))
         column = self._table[:self._n_rows, self._place[name]]
         column.flags.writeable = False
         return column
@@ -48,13 +50,6 @@ class _History(Mapping):
 
     def __len__(self):
         return len(self._place)
-
-
-def _read_table(path):
-    """A CSV file of numbers as arrays by name."""
-    with open(path, newline="", encoding="utf-8") as file:
-        names, *rows = csv.reader(file)
-    return dict(zip(names, np.array(rows, dtype=float).reshape(-1, len(names)).T.copy()))
 
 
 class _Folder:
@@ -155,7 +150,7 @@ class Run:
     @property
     def probes(self):
         """probes.csv so far, as arrays by column name."""
-        return _read_table(self._folder.path / "probes.csv")
+        return read_table(self._folder.path / "probes.csv")
 
     @property
     def fields(self):
@@ -218,6 +213,6 @@ def drive(scene, output=None, *, log=False):
     try:
         if _core.drive(scene._core, str(folder.path), log) != _FINISHED:
             raise NumericalStop("the path cannot be followed to its end; log=True says why")
-        return _read_table(folder.path / "history.csv")
+        return read_table(folder.path / "history.csv")
     finally:
         folder.leave()
