@@ -41,6 +41,10 @@ GALLERY = [
     ("Undrained triaxial compression", "prm/triaxial.prm", (), (), "element-test"),
     ("A cantilever swings", "prm/cantilever_dynamic_a.prm", DOMAINS,
      ("--only", "body", "-f", "cauchy_stress_xx"), "body-cauchy_stress_xx"),
+    ("Two balls meet: the pressure between them", "prm/spheres_collision.prm", (),
+     ("--only", "contact", "--view", "-20", "25", "-n", "3"), "contact"),
+    ("A prism slides: pressures on both surfaces", "prm/prism_sliding.prm", (),
+     ("--only", "contact", "-n", "3"), "contact"),
 ]
 
 

@@ -3,8 +3,9 @@
 # Tests run side by side, so that each keeps to one thread.
 set(kedge_test_environment OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
   PYTHONDONTWRITEBYTECODE=1)
-if(KEDGE_SANITIZE) # what MPI and PETSc keep until the end is no leak of ours
-  list(APPEND kedge_test_environment ASAN_OPTIONS=detect_leaks=0
+if(KEDGE_SANITIZE)
+  list(APPEND kedge_test_environment ASAN_OPTIONS=detect_leaks=1
+    LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/sanitize/leaks.txt:print_suppressions=0
     UBSAN_OPTIONS=print_stacktrace=1)
 endif()
 find_program(KEDGE_MPIRUN NAMES mpirun mpiexec REQUIRED)
