@@ -44,7 +44,7 @@ GALLERY = [
     ("Two balls meet: the pressure between them", "prm/spheres_collision.prm", (),
      ("--only", "contact", "--view", "-20", "25", "-n", "3"), "contact"),
     ("A prism slides: pressures on both surfaces", "prm/prism_sliding.prm", (),
-     ("--only", "contact", "-n", "3"), "contact"),
+     ("--only", "contact", "-n", "6"), "contact"),
 ]
 
 

@@ -40,16 +40,16 @@ def draw_triangles(panel, corners, pressure, norm, axes_of_view):
                                         edgecolors="#00000030", linewidths=0.2))
 
 
-def explain_bars(panel, states, pressures, longest):
-    """A legend beside a panel of what bars there are."""
+def explain_bars(figure, states, pressures, longest):
+    """A legend beside the panels of what bars there are."""
     seen = set()
     for (_, fields), pressure in zip(states, pressures):
         seen.update(int(state) for state in fields["state"][pressure > 0, 0])
     handles = [plt.Rectangle((0, 0), 1, 1, color=STATES[state]) for state in sorted(seen)]
     names = [NAMES[state] for state in sorted(seen)]
-    panel.legend(handles, names, loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8,
-                 title_fontsize=8,
-                 title=f"longest bar\n{longest}" if seen else "nothing presses\nat these times")
+    figure.get_layout_engine().set(rect=(0, 0, 0.89, 1))
+    figure.legend(handles, names, loc="upper right", fontsize=8, title_fontsize=8,
+                  title=f"longest bar\n{longest}" if seen else "nothing presses\nat these times")
 
 
 def draw_contact(run, options):
@@ -72,7 +72,8 @@ def draw_contact(run, options):
     factor, unit = style.handy("Pa", pressures, options.stress_unit)
     largest = max(max(values.max(initial=0.0) for values in pressures), 1e-300)
     norm = plt.Normalize(0, factor * largest)
-    rows, columns, size = layout(*(high - low), len(states))
+    margin = (LONGEST if not in_space else 0.04) * max(high - low)
+    rows, columns, size = layout(*(high - low + 2 * margin), len(states))
     figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False)
     for panel in axes.flat[len(states):]:
         panel.set_visible(False)
@@ -82,7 +83,6 @@ def draw_contact(run, options):
         else:
             draw_bars(panel, corners, pressure, fields["state"][:, 0],
                       LONGEST * max(high - low) / largest)
-        margin = (LONGEST if not in_space else 0.04) * max(high - low)
         panel.set(xlim=(low[0] - margin, high[0] + margin), aspect="equal",
                   ylim=(low[1] - margin, high[1] + margin),
                   title=f"t = {style.time_text(time, options.time_unit)}")
@@ -96,6 +96,6 @@ def draw_contact(run, options):
         figure.colorbar(plt.cm.ScalarMappable(norm=norm, cmap="viridis"), ax=axes, shrink=0.8,
                         aspect=30, label=style.label("contact pressure", unit))
     else:
-        explain_bars(axes[0, -1], states, pressures, f"{factor * largest:.3g} {unit}")
+        explain_bars(figure, states, pressures, f"{factor * largest:.3g} {unit}")
     figure.suptitle(run.title())
     return figure
