@@ -87,6 +87,10 @@ namespace kedge
       json.add("reason", summary.reason);
     json.add("dimension", std::uint64_t(summary.dim));
     json.add("n_ranks", std::uint64_t(summary.n_ranks));
+    json.open("bodies", '[');
+    for (const std::string &body : summary.bodies)
+      json.add("", body);
+    json.close();
     add_map(json, "counts", summary.counts);
     json.add("steps", summary.n_steps);
     json.add("newton_iterations", summary.n_newton_iterations);

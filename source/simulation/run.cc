@@ -310,6 +310,7 @@ namespace kedge
     summary.reason   = reason;
     summary.dim      = dim;
     summary.n_ranks  = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    summary.bodies   = model.bodies.names;
     const auto count = [&](const std::string &column) {
       return static_cast<std::uint64_t>(model.ledger.value(column));
     };

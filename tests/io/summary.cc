@@ -55,6 +55,7 @@ TEST(IoSummaryMpi, AParserReadsItBack)
   summary.status                         = "finished";
   summary.dim                            = 3;
   summary.n_steps                        = 12;
+  summary.bodies                         = {"upper layer", "lower layer"};
   summary.counts["n_points"]             = 400;
   summary.phase_wall_seconds["transfer"] = 0.25;
   summary.peak_memory_bytes              = peak_memory(MPI_COMM_WORLD);
@@ -76,6 +77,8 @@ TEST(IoSummaryMpi, AParserReadsItBack)
   boost::property_tree::read_json((scratch / "summary.json").string(), tree);
   EXPECT_EQ(tree.get<std::string>("title"), "a \"title\"");
   EXPECT_EQ(tree.get<int>("steps"), 12);
+  EXPECT_EQ(tree.get_child("bodies").size(), 2u);
+  EXPECT_EQ(tree.get_child("bodies").front().second.data(), "upper layer"); // number 0
   EXPECT_EQ(tree.get<int>("counts.n_points"), 400);
   EXPECT_EQ(tree.get<double>("phase_wall_seconds.transfer"), 0.25);
   EXPECT_EQ(tree.get<double>("final.total_energy"), 3);

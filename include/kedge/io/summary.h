@@ -25,6 +25,8 @@ namespace kedge
     unsigned int dim     = 2;
     unsigned int n_ranks = 1;
 
+    std::vector<std::string> bodies; ///< their names, in the order of the numbers of the field body
+
     std::map<std::string, std::uint64_t> counts; ///< points, active cells, dofs ..
 
     std::uint64_t n_steps                    = 0;

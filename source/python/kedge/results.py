@@ -16,7 +16,7 @@ class Table(dict):
 
 def unknown_column(name, names):
     """Words for a column that is not there: which ones are like it, or which there are."""
-    near = difflib.get_close_matches(str(name), names, 3, 0.5)
+    near = difflib.get_close_matches(str(name), names, 3)
     return f"no column '{name}'; " + (f"did you mean {', '.join(near)}?" if near else
                                       f"there are {', '.join(names)}")
 
