@@ -154,6 +154,10 @@ kedge_add_scene_test(scene.drained_cylinder.ranks prm/drained_cylinder.prm RANKS
 kedge_add_scene_test(scene.drained_sphere prm/drained_sphere.prm)
 # the pressure of water all around presses on the pores as on the faces
 kedge_add_scene_test(scene.soil_under_water tests/scenes/soil_under_water.prm)
+# large strains without drainage: the error falls with steps and cells
+kedge_add_scene_test(scene.undrained_cylinder tests/scenes/undrained_cylinder.prm)
+kedge_add_scene_test(scene.undrained_cylinder.coarse tests/scenes/undrained_cylinder.prm
+  SET "Constants/n = 4" "Checks/displacement/Tolerance = 3e-3")
 # a saturated block that moves by a millionth of a cell: stresses of round-off, whose residual is none
 kedge_add_scene_test(scene.hardly_moves benchmarks/stability/saturated_block.prm
   SET "Constants/shift = 1e-6" "Constants/w = 1e-8*M" EXPECT_STDOUT "finished at t = .* after 35 steps")
