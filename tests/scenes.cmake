@@ -80,35 +80,10 @@ kedge_add_restart_test(scene.restart.strength_with_depth prm/strength_with_depth
     "Output/Points interval = 0")
 kedge_add_scene_test(path.simple_shear prm/paths/simple_shear.prm OPTIONS --drive)
 kedge_add_scene_test(path.tension_cycle prm/paths/tension_cycle.prm OPTIONS --drive)
-kedge_add_scene_test(path.clay_softening prm/paths/clay_softening.prm OPTIONS --drive)
-kedge_add_scene_test(path.clay_softening.von_mises prm/paths/clay_softening.prm OPTIONS --drive
-  SET "Materials/clay/Model = von_mises")
-kedge_add_scene_test(path.sand_plane_strain prm/paths/sand_plane_strain.prm OPTIONS --drive)
-kedge_add_scene_test(path.sand_plane_strain.no_dilation prm/paths/sand_plane_strain.prm
-  OPTIONS --drive SET "Constants/c = 5e3" "Constants/psi = 0")
-kedge_add_scene_test(path.sand_plane_strain.associated prm/paths/sand_plane_strain.prm
-  OPTIONS --drive SET "Constants/c = 5e3" "Constants/psi = 30")
-kedge_add_scene_test(path.cam_clay_undrained prm/paths/cam_clay_undrained.prm OPTIONS --drive)
-kedge_add_scene_test(path.cam_clay_undrained.overconsolidated prm/paths/cam_clay_undrained.prm
-  OPTIONS --drive SET "Constants/OCR = 1.5")
-kedge_add_scene_test(path.cam_clay_drained prm/paths/cam_clay_drained.prm OPTIONS --drive)
-kedge_add_scene_test(path.cam_clay_drained.overconsolidated prm/paths/cam_clay_drained.prm
-  OPTIONS --drive SET "Constants/OCR = 2")
-kedge_add_scene_test(path.mohr_coulomb_plane_strain prm/paths/mohr_coulomb_plane_strain.prm
-  OPTIONS --drive)
 kedge_add_scene_test(path.turning_strain prm/paths/turning_strain.prm OPTIONS --drive)
 kedge_add_scene_test(path.turning_strain.half_step prm/paths/turning_strain.prm
   OPTIONS --drive SET "Constants/steps = 400")
 kedge_add_scene_test(path.2ranks prm/paths/simple_shear.prm OPTIONS --drive RANKS 2)
-
-# --- Element tests of soil, against integrations in other variables --------------
-kedge_add_scene_test(path.isotropic_compression prm/paths/isotropic_compression.prm)
-kedge_add_scene_test(path.oedometer prm/oedometer.prm)
-kedge_add_scene_test(path.triaxial prm/triaxial.prm)
-kedge_add_scene_test(path.triaxial.overconsolidated prm/triaxial.prm SET "Constants/p0 = 50e3")
-kedge_add_scene_test(path.triaxial_drained prm/paths/triaxial_drained.prm)
-kedge_add_scene_test(path.triaxial_drained.critical prm/paths/triaxial_drained.prm
-  SET "Constants/cell = 70e3")
 
 kedge_add_scene_test(scene.discs_plastic_a prm/discs_plastic_a.prm
   COMPARE_RANKS 1e-6)
@@ -370,9 +345,9 @@ kedge_add_scene_test(refusal.missing_flux_face prm/recharge.prm
   SET "Surface fluxes/rain/Where = y < 0" EXPECT_EXIT 1
   EXPECT_STDERR "Surface flux 'rain' finds no exposed face" LABELS refusal)
 kedge_add_scene_test(refusal.initial_stress prm/layer_at_rest.prm
-  SET "Materials/skeleton/Model = critical_state" ${clay}
-    "Bodies/soil/Initial stress = 0; -1e6; 0; 0"
-  EXPECT_EXIT 1 EXPECT_STDERR "Bodies/soil/Initial stress at .*beyond the yield surface"
+  SET "Materials/skeleton/Model = improved_hencky"
+    "Bodies/soil/Initial stress = 1e9; 1e9; 1e9; 0"
+  EXPECT_EXIT 1 EXPECT_STDERR "Bodies/soil/Initial stress at .*beyond what the improved Hencky law"
   LABELS refusal)
 kedge_add_scene_test(refusal.initial_stress_components prm/layer_at_rest.prm
   SET "Bodies/soil/Initial stress = 0; 0" EXPECT_EXIT 1

@@ -1,5 +1,6 @@
-"""Tests `kedge init` and `kedge sweep`: tools.py KEDGE ROOT OUTPUT"""
+"""Tests `kedge init`, `kedge sweep` and `kedge safety`: tools.py KEDGE ROOT OUTPUT"""
 import csv
+import re
 import shutil
 import subprocess
 import sys
@@ -88,10 +89,41 @@ def test_wrong_sweeps():
     assert len(list((OUTPUT / "unknown").glob("00*"))) <= 2, said
 
 
+def safety(*arguments, code=0):
+    """kedge safety"""
+    return call(sys.executable, TOOLS / "kedge_safety.py", "--kedge", KEDGE, *arguments, code=code)
+
+
+def test_safety():
+    """The slope's factor; Griffiths and Lane have 1.4, five cells over its height 6 % more."""
+    slope = ROOT / "prm/slope.prm"
+    said = safety(slope, "-s", "Constants/n = 5", "--between", "1.3", "1.7", "--tolerance", "0.03",
+                  "-o", "factor", "-j", "2")
+    factor = float(re.search(r"safety factor: ([0-9.]+)", said)[1])
+    assert 1.4 < factor < 1.4 * 1.08, factor
+    with open(OUTPUT / "factor/safety.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    verdicts = [row["verdict"] == "stands" for row in rows] # by factor: it stands, then it fails
+    assert verdicts == sorted(verdicts, reverse=True) and len(rows) >= 4
+    for row in rows:
+        assert (float(row["strength_reduction"]) < factor) == (row["verdict"] == "stands")
+
+
+def test_wrong_safety():
+    """What cannot be bracketed is said."""
+    slope, coarse = ROOT / "prm/slope.prm", ["-s", "Constants/n = 5", "-o", "wrong"]
+    assert "larger HIGH" in safety(slope, *coarse, "--between", "1", "1.1", code=1)
+    assert "smaller LOW" in safety(slope, *coarse, "--between", "1.8", "2", code=1)
+    assert "no scene" in safety("nowhere.prm", code=1)
+    assert "must not be less" in safety(slope, "-s", "Materials/soil/Cohesion = -1", code=1)
+
+
 shutil.rmtree(OUTPUT, ignore_errors=True)
 OUTPUT.mkdir(parents=True)
 test_init()
 test_sweep()
 test_sweep_goes_on()
 test_wrong_sweeps()
-print("init and sweep do what they say")
+test_safety()
+test_wrong_safety()
+print("init, sweep and safety do what they say")

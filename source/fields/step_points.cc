@@ -138,8 +138,29 @@ namespace kedge
   {
     double *values = history.data() + std::size_t(slot) * n_history;
     for (unsigned int c = 0; c < columns.size(); ++c)
-      values[c] =
-        columns[c] < most_memory_columns ? state.memory[columns[c]] : std::log(determinant[slot]);
+      values[c] = columns[c] < most_memory_columns ? state.memory[columns[c]]
+                  : columns[c] == is_time_step     ? 0.
+                                                   : std::log(determinant[slot]);
+  }
+
+
+
+  template <int dim>
+  void
+  StepPoints<dim>::set_time_step(const double dt, const MemoryColumns &columns_of_body)
+  {
+    if (columns_of_body.empty())
+      return;
+    for (const Batch &batch : batches)
+      {
+        const auto &columns = columns_of_body[batch.body];
+        const auto  found   = std::find(columns.begin(), columns.end(), is_time_step);
+        if (found == columns.end())
+          continue;
+        const std::size_t column = found - columns.begin();
+        for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+          history[std::size_t(slot) * n_history + column] = dt;
+      }
   }
 
 

@@ -8,6 +8,8 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
+
 namespace kedge
 {
   namespace
@@ -96,6 +98,8 @@ namespace kedge
     json.add("newton_iterations", summary.n_newton_iterations);
     json.add("linear_iterations", summary.n_linear_iterations);
     json.add("rejected_attempts", summary.n_rejected_attempts);
+    if (std::isfinite(summary.largest_displacement))
+      json.add("largest_displacement", summary.largest_displacement);
     if (summary.largest_condition_estimate > 0.)
       json.add("largest_condition_estimate", summary.largest_condition_estimate);
     json.add("wall_seconds", summary.wall_seconds);

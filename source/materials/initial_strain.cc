@@ -161,32 +161,120 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** Of soils of stiffness 1: what the moduli of the place are times those of the law. */
+    template <class Law>
+    double
+    stiffness_of(const HistoryOf<Law> &history)
+    {
+      if constexpr (std::is_base_of_v<HenckyPlasticity<Law>, Law>)
+        if constexpr (Law::stiffness_of_place)
+          return history.stiffness;
+      (void)history;
+      return 1.;
+    }
+
+    /** What of the history follows from the stress at the start. */
+    template <class Law>
+    void
+    follow_stress(const Law &, const std::array<double, 3> &, HistoryOf<Law> &)
+    {}
+
+    void
+    follow_stress(const ModifiedCamClay            &law,
+                  const std::array<double, 3>      &stress,
+                  ModifiedCamClay::History<double> &history)
+    {
+      if (!law.preconsolidation_by_ratio)
+        return;
+      const double p      = -(stress[0] + stress[1] + stress[2]) / 3.;
+      double       square = 0.;
+      for (const double s : stress)
+        square += 1.5 * (s + p) * (s + p);
+      const double M = law.critical_state_ratio;
+      history.preconsolidation_pressure *= p + square / (M * M * p);
+    }
+
+    /** The law's own return of an elastic strain, as a step without plastic past. */
+    template <class Law>
+    void
+    return_to_surface(const Law &law,
+                      const double (&strain)[3],
+                      HistoryOf<Law> &history,
+                      InitialState   &state)
+    {
+      const double nothing[3] = {0., 0., 0.};
+      const auto   response   = law.respond(strain, nothing, history);
+      if constexpr (Law::can_fail)
+        if (!response.valid)
+          throw UserError("it lies so far beyond the yield surface that there is no return to it");
+      double size = 0., change = 0.;
+      for (int i = 0; i < 3; ++i)
+        {
+          size   = std::max(size, std::abs(state.stress[i]));
+          change = std::max(change, std::abs(response.kirchhoff_stress[i] - state.stress[i]));
+          state.stress[i] = response.kirchhoff_stress[i];
+          state.strain[i] -= law.plastic_increment(response, i);
+        }
+      state.returned = change / size;
+      history        = law.updated(response, history);
+    }
+
+    template <class Law>
+    InitialState
+    state_of(const Law &law, const std::array<double, 3> &stress, HistoryOf<Law> history)
+    {
+      const auto  &elastic   = elasticity(law);
+      const double stiffness = stiffness_of<Law>(history);
+      const double pressure  = (stress[0] + stress[1] + stress[2]) / 3. / stiffness;
+      const double volume    = volume_strain_at(elastic, pressure);
+      follow_stress(law, stress, history);
+
+      InitialState result;
+      result.stress = stress;
+      double square = 0.;
+      for (int i = 0; i < 3; ++i)
+        {
+          const double deviator = 0.5 * (stress[i] / stiffness - pressure) / elastic.shear_modulus;
+          result.strain[i]      = deviator + volume / 3.;
+          square += deviator * deviator;
+        }
+      const double values[3] = {result.strain[0], result.strain[1], result.strain[2]};
+      if constexpr (Law::yields)
+        if (excess(law, history, values, volume, std::sqrt(square)) > surface_tolerance)
+          return_to_surface(law, values, history, result);
+      result.history.assign(n_columns<Law>, 0.);
+      write_history<Law>(history, result.history.data());
+      return result;
+    }
+  } // namespace
+
+
+
+  InitialState
+  initial_state(const Material              &material,
+                const std::array<double, 3> &stress,
+                const std::vector<double>   &history)
+  {
+    return std::visit(
+      [&](const auto &law) {
+        using Law = std::decay_t<decltype(law)>;
+        return state_of<Law>(law, stress, read_history<Law>(history.data()));
+      },
+      material);
+  }
+
+
+
   std::array<double, 3>
   initial_elastic_strain(const Material              &material,
                          const std::array<double, 3> &stress,
                          const std::vector<double>   &history)
   {
-    return std::visit(
-      [&](const auto &law) {
-        using Law             = std::decay_t<decltype(law)>;
-        const auto  &elastic  = elasticity(law);
-        const double pressure = (stress[0] + stress[1] + stress[2]) / 3.;
-        const double volume   = volume_strain_at(elastic, pressure);
-
-        std::array<double, 3> strain;
-        double                square = 0.;
-        for (int i = 0; i < 3; ++i)
-          {
-            const double deviator = 0.5 * (stress[i] - pressure) / elastic.shear_modulus;
-            strain[i]             = deviator + volume / 3.;
-            square += deviator * deviator;
-          }
-        const double values[3] = {strain[0], strain[1], strain[2]};
-        if (excess(law, read_history<Law>(history.data()), values, volume, std::sqrt(square)) >
-            surface_tolerance)
-          throw UserError("it lies beyond the yield surface");
-        return strain;
-      },
-      material);
+    const InitialState state = initial_state(material, stress, history);
+    if (state.returned > 0.)
+      throw UserError("it lies beyond the yield surface");
+    return state.strain;
   }
 } // namespace kedge

@@ -15,7 +15,8 @@ namespace kedge
         const bool known = std::any_of(result.begin(), result.end(), [&](const Column &other) {
           return std::string(other.name) == column.name;
         });
-        if (!known && column.kind != ColumnKind::volume_strain)
+        if (!known && column.kind != ColumnKind::volume_strain &&
+            column.kind != ColumnKind::time_step)
           result.push_back(column);
       };
       const auto add_all = [&](const auto &columns) {
@@ -72,6 +73,7 @@ namespace kedge
     std::vector<unsigned int> result;
     for (const Column &column : columns_of(material))
       result.push_back(column.kind == ColumnKind::volume_strain ? not_in_memory
+                       : column.kind == ColumnKind::time_step   ? is_time_step
                                                                 : memory_index(column.name));
     return result;
   }

@@ -174,13 +174,15 @@ namespace kedge
   help_text()
   {
     std::ostringstream out;
-    out << "kedge SCENE.prm [options]\n\n"
-           "Large deformations of solids by the implicit Material Point Method.\n"
-           "A - as SCENE reads standard input.\n\n"
-           "kedge init NAME [KIND]         writes a commented scene to start from\n"
-           "kedge plot DIR                 draws pictures of a run; kedge plot --help\n"
-           "kedge sweep SCENE.prm ..       runs a scene with many settings; kedge sweep --help\n"
-           "(by the script kedge that starts this program)\n\nOptions\n";
+    out
+      << "kedge SCENE.prm [options]\n\n"
+         "Large deformations of solids by the implicit Material Point Method.\n"
+         "A - as SCENE reads standard input.\n\n"
+         "kedge init NAME [KIND]         writes a commented scene to start from\n"
+         "kedge plot DIR                 draws pictures of a run; kedge plot --help\n"
+         "kedge sweep SCENE.prm ..       runs a scene with many settings; kedge sweep --help\n"
+         "kedge safety SCENE.prm         by what its strengths can be divided; kedge safety --help\n"
+         "(by the script kedge that starts this program)\n\nOptions\n";
     for (const Option &option : options())
       out << "  " << (option.short_name.empty() ? "" : option.short_name + ", ") << option.name
           << (option.argument.empty() ? "" : " ") << option.argument << "\n      " << option.help

@@ -41,7 +41,7 @@ namespace kedge
                                                     surface_pressures(),
                                                     surface_fluxes(),
                                                     equilibrium(),
-                                                    time()};
+                                                    declare_time(allow)};
         for (SectionDeclaration &section : declare_numerics<dim>(allow))
           sections.push_back(std::move(section));
         sections.insert(sections.end(), {declare_output<dim>(allow), probes(), checks()});
@@ -94,7 +94,13 @@ namespace kedge
                   allow.one_of({"2", "3"}),
                   "Space dimension. 2 is plane strain: masses, forces and energies are per metre "
                   "of thickness."},
-                 {"Title", "", allow.text("any text").or_empty(), "What the scene shows."}}};
+                 {"Title", "", allow.text("any text").or_empty(), "What the scene shows."},
+                 {"Strength reduction",
+                  "1",
+                  allow.number(Range::positive()),
+                  "F: the strengths of all materials that yield are divided by it: cohesion, tan "
+                  "phi, undrained strength, yield stress; psi is phi at most. `kedge safety` finds "
+                  "the largest F that a slope bears, its safety factor [-]."}}};
       }
 
       SectionDeclaration
@@ -314,64 +320,6 @@ namespace kedge
                   "1",
                   allow.number(Range::positive()),
                   "For saturated bodies: how long the fluid flows in it [s]."}}};
-      }
-
-      SectionDeclaration
-      time() const
-      {
-        Range factor   = Range::positive();
-        factor.upper   = 1;
-        Range fraction = Range::not_negative();
-        fraction.upper = 1;
-        Range beta     = Range::positive();
-        beta.upper     = 0.5;
-        Range growth;
-        growth.lower = 1;
-        return {
-          "Time",
-          "From when to when, in which steps, by which scheme.",
-          SectionKind::plain,
-          {{"Scheme",
-            "clc-midpoint",
-            allow.one_of({"quasi-static",
-                          "clc-quasi-static",
-                          "clc-midpoint",
-                          "midpoint",
-                          "trapezoidal",
-                          "newmark",
-                          "generalised-alpha"}),
-            "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
-            "only counts the load. clc-quasi-static balances the middle of the step instead of "
-            "its end, so that the energy books close."},
-           {"Start", "0", allow.number(), "When the run starts [s]."},
-           {"End", required, allow.number(), "When it ends [s]."},
-           {"Step",
-            required,
-            allow.step(),
-            "Fixed step, or a factor times the step that the waves allow an explicit method: of "
-            "the undeformed materials (initial cfl), or of the nodes at every step, from sums of "
-            "mass and volume (cfl) or of density (density cfl)."},
-           {"Smallest step factor",
-            "1/1024",
-            allow.number(factor),
-            "A step that does not converge is cut; below this fraction of Step the run stops [-]."},
-           {"Largest step factor",
-            "",
-            allow.number(growth).or_empty(),
-            "If given, steps adapt to Newton's method: 10 iterations or more halve the next step, "
-            "three steps in a row with at most 5 double it, up to this times Step [-]."},
-           {"Break times", "", allow.numbers().or_empty(), "Times at which a step must end [s]."},
-           {"Newmark beta", "0.25", allow.number(beta), "Of the scheme newmark [-]."},
-           {"Newmark gamma", "0.5", allow.number(fraction), "Of the scheme newmark [-]."},
-           {"Spectral radius",
-            "0.818",
-            allow.number(fraction),
-            "Of generalised-alpha at infinite frequency; 1 damps nothing [-]."},
-           {"Carry acceleration",
-            "true",
-            allow.truth(),
-            "Whether material points keep their acceleration from step to step; false restarts "
-            "newmark, trapezoidal and generalised-alpha with zero at each step."}}};
       }
 
       SectionDeclaration

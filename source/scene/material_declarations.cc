@@ -98,7 +98,17 @@ namespace kedge
          allow.number(NumberRange::positive()).or_empty(),
          "With Undrained strength: the grid's cell size in x for which Softening shear strain "
          "holds; on another it is scaled by the inverse of the sizes, for a shear band is as "
-         "wide as some cells [m]. Nothing: no scaling."}};
+         "wide as some cells [m]. Nothing: no scaling."},
+        {"Rate coefficient",
+         "0",
+         allow.number(NumberRange::not_negative()),
+         "With Undrained strength: mu, by which part of it s_u grows with each decade of the rate "
+         "of plastic shear strain above the next entry, 0.05 to 0.2 of clay [-]; 0: none."},
+        {"Reference shear rate",
+         "",
+         allow.number(NumberRange::positive()).or_empty(),
+         "With a Rate coefficient: the rate of plastic shear strain, in simple shear that of gamma, "
+         "up to which s_u is that given [1/s]."}};
     }
 
     template <int dim>
@@ -109,6 +119,11 @@ namespace kedge
                "",
                allow.expression(spatial_variables(), "x, y, z, depth").or_empty(),
                "drucker_prager, mohr_coulomb: c, of the place where a point is at the start [Pa]."},
+              {"Stiffness factor",
+               "",
+               allow.expression(spatial_variables(), "x, y, z, depth").or_empty(),
+               "drucker_prager, mohr_coulomb: by which both moduli are multiplied, of the place "
+               "where a point is at the start, such as sqrt(depth/10) [-]; nothing: 1."},
               {"Friction angle",
                "",
                allow.number(range(0, 90, false)).or_empty(),
@@ -148,6 +163,12 @@ namespace kedge
          positive,
          "modified_cam_clay: lambda, the same in virgin compression [-]."},
         {"Initial void ratio", "", positive, "modified_cam_clay: e_0 of the undeformed soil [-]."},
+        {"Overconsolidation ratio",
+         "",
+         allow.expression(spatial_variables(), "x, y, z, depth").or_empty(),
+         "modified_cam_clay, instead of Preconsolidation pressure: p_c over that of the yield "
+         "surface through the Initial stress, which is 1 of a normally consolidated soil; of the "
+         "place [-]."},
         {"Reference pressure",
          "1e3",
          allow.number(NumberRange::positive()),

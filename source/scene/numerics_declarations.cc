@@ -170,6 +170,73 @@ namespace kedge
 
 
   template <int dim>
+  SectionDeclaration
+  declare_time(const ValuePatterns<dim> &allow)
+  {
+    NumberRange factor   = NumberRange::positive();
+    factor.upper         = 1;
+    NumberRange fraction = NumberRange::not_negative();
+    fraction.upper       = 1;
+    NumberRange beta     = NumberRange::positive();
+    beta.upper           = 0.5;
+    NumberRange growth;
+    growth.lower = 1;
+    return {
+      "Time",
+      "From when to when, in which steps, by which scheme.",
+      SectionKind::plain,
+      {{"Scheme",
+        "clc-midpoint",
+        allow.one_of({"quasi-static",
+                      "clc-quasi-static",
+                      "clc-midpoint",
+                      "midpoint",
+                      "trapezoidal",
+                      "newmark",
+                      "generalised-alpha"}),
+        "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
+        "only counts the load. clc-quasi-static balances the middle of the step instead of "
+        "its end, so that the energy books close."},
+       {"Start", "0", allow.number(), "When the run starts [s]."},
+       {"End", std::nullopt, allow.number(), "When it ends [s]."},
+       {"Step",
+        std::nullopt,
+        allow.step(),
+        "Fixed step, or a factor times the step that the waves allow an explicit method: of "
+        "the undeformed materials (initial cfl), or of the nodes at every step, from sums of "
+        "mass and volume (cfl) or of density (density cfl)."},
+       {"Smallest step factor",
+        "1/1024",
+        allow.number(factor),
+        "A step that does not converge is cut; below this fraction of Step the run stops [-]."},
+       {"Largest step factor",
+        "",
+        allow.number(growth).or_empty(),
+        "If given, steps adapt to Newton's method: 10 iterations or more halve the next step, "
+        "three steps in a row with at most 5 double it, up to this times Step [-]."},
+       {"Break times", "", allow.numbers().or_empty(), "Times at which a step must end [s]."},
+       {"Failure displacement",
+        "",
+        allow.number(NumberRange::positive()).or_empty(),
+        "Of quasi-static runs: once a material point has moved so far, or once there is no "
+        "equilibrium any more, the run is finished, at its limit load, and its Checks are made "
+        "[m]. Nothing: it goes on, and without equilibrium it stops with exit code 2."},
+       {"Newmark beta", "0.25", allow.number(beta), "Of the scheme newmark [-]."},
+       {"Newmark gamma", "0.5", allow.number(fraction), "Of the scheme newmark [-]."},
+       {"Spectral radius",
+        "0.818",
+        allow.number(fraction),
+        "Of generalised-alpha at infinite frequency; 1 damps nothing [-]."},
+       {"Carry acceleration",
+        "true",
+        allow.truth(),
+        "Whether material points keep their acceleration from step to step; false restarts "
+        "newmark, trapezoidal and generalised-alpha with zero at each step."}}};
+  }
+
+
+
+  template <int dim>
   std::vector<SectionDeclaration>
   declare_numerics(const ValuePatterns<dim> &allow)
   {
@@ -182,6 +249,10 @@ namespace kedge
   declare_pore_fluid<2>(const ValuePatterns<2> &);
   template SectionDeclaration
   declare_pore_fluid<3>(const ValuePatterns<3> &);
+  template SectionDeclaration
+  declare_time<2>(const ValuePatterns<2> &);
+  template SectionDeclaration
+  declare_time<3>(const ValuePatterns<3> &);
   template std::vector<SectionDeclaration>
   declare_numerics<2>(const ValuePatterns<2> &);
   template std::vector<SectionDeclaration>

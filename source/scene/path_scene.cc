@@ -171,7 +171,8 @@ namespace kedge
           section.entries.erase(std::remove_if(section.entries.begin(),
                                                section.entries.end(),
                                                [](const EntryDeclaration &entry) {
-                                                 return entry.name != "Title";
+                                                 return entry.name != "Title" &&
+                                                        entry.name != "Strength reduction";
                                                }),
                                 section.entries.end());
         if (section.name == "Checks")
@@ -196,7 +197,9 @@ namespace kedge
     scene.name     = file.scene_name();
     scene.title    = SectionReader(reader, {}).text("Title");
     scene.path     = read_path(section);
-    scene.material = read_materials(reader)[find_name(reader, section, "Material", "Materials")];
+    auto materials = read_materials(reader);
+    reduce_strength(reader, materials);
+    scene.material = materials[find_name(reader, section, "Material", "Materials")];
     if (scene.path.undrained && !(scene.material.initial_porosity > 0.))
       throw section.error("Drainage",
                           "Materials/" + scene.material.name +

@@ -2,6 +2,7 @@
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/read_materials.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -89,7 +90,11 @@ namespace kedge
         require(section, strength, model);
       if (!is_tresca && (model != "von_mises" || section.is_empty(strength)))
         {
-          refuse(section, {strength, "Softening cell size"}, "models tresca and von_mises");
+          refuse(section,
+                 {strength, "Softening cell size", "Reference shear rate"},
+                 "models tresca and von_mises, with Undrained strength");
+          if (section.number("Rate coefficient") != 0.)
+            throw section.error("Rate coefficient", "It belongs to Undrained strength.");
           if (section.number("Remoulded strength ratio") != 1.)
             throw section.error("Remoulded strength ratio", "It belongs to Undrained strength.");
           return false;
@@ -106,6 +111,13 @@ namespace kedge
       material.softening_strain   = section.number("Softening shear strain");
       if (!section.is_empty("Softening cell size"))
         material.softening_cell_size = section.number("Softening cell size");
+      material.rate_coefficient = section.number("Rate coefficient");
+      if (material.rate_coefficient > 0.)
+        require(section, "Reference shear rate", "with a Rate coefficient");
+      else
+        refuse(section, {"Reference shear rate"}, "a Rate coefficient");
+      if (material.rate_coefficient > 0.)
+        material.reference_rate = section.number("Reference shear rate");
       return true;
     }
 
@@ -140,10 +152,12 @@ namespace kedge
     {
       const std::string cohesion = "Cohesion", friction = "Friction angle",
                         dilation = "Dilation angle", cut_off = "Tension cut-off",
-                        model = section.text("Model");
+                        stiffness = "Stiffness factor", model = section.text("Model");
       if (model != "drucker_prager" && model != "mohr_coulomb")
         {
-          refuse(section, {cohesion, friction, cut_off}, "models drucker_prager and mohr_coulomb");
+          refuse(section,
+                 {cohesion, friction, cut_off, stiffness},
+                 "models drucker_prager and mohr_coulomb");
           if (section.number(dilation) != 0.)
             throw section.error(dilation, "It belongs to models drucker_prager and mohr_coulomb.");
           return;
@@ -155,8 +169,10 @@ namespace kedge
       const bool is_cone = model == "drucker_prager";
       require(section, cohesion, model);
       require(section, friction, model);
-      material.kind           = is_cone ? MaterialKind::drucker_prager : MaterialKind::mohr_coulomb;
-      material.cohesion       = read_spatial(section, cohesion, 1., true);
+      material.kind     = is_cone ? MaterialKind::drucker_prager : MaterialKind::mohr_coulomb;
+      material.cohesion = read_spatial(section, cohesion, 1., true);
+      if (!section.is_empty(stiffness))
+        material.stiffness_factor = read_spatial(section, stiffness);
       material.friction_angle = section.number(friction);
       material.dilation_angle = section.number(dilation);
       material.cone_match     = matches.at(section.text("Cone match"));
@@ -179,14 +195,15 @@ namespace kedge
       const std::string swelling = "Swelling slope", compression = "Compression slope",
                         void_ratio = "Initial void ratio", pressure = "Preconsolidation pressure",
                         slope = "Critical state slope", shear = "Shear modulus",
-                        model = "modified_cam_clay";
+                        ratio = "Overconsolidation ratio", model = "modified_cam_clay";
       if (section.text("Model") != model)
         {
-          refuse(section, {swelling, compression, void_ratio}, "model " + model);
+          refuse(section, {swelling, compression, void_ratio, ratio}, "model " + model);
           return false;
         }
-      for (const std::string &entry : {swelling, compression, void_ratio, pressure, slope, shear})
+      for (const std::string &entry : {swelling, compression, void_ratio, slope, shear})
         require(section, entry, model);
+      material.preconsolidation_by_ratio = !first_is_given(section, pressure, ratio);
       refuse(section,
              {"Young's modulus", "Poisson's ratio", "Bulk modulus"},
              "models of a constant bulk modulus; that of " + model + " is p'/kappa");
@@ -200,7 +217,8 @@ namespace kedge
       material.initial_void_ratio   = section.number(void_ratio);
       material.critical_state_ratio = section.number(slope);
       material.reference_pressure   = section.number("Reference pressure");
-      material.start_preconsolidation_pressure = read_spatial(section, pressure);
+      material.start_preconsolidation_pressure =
+        read_spatial(section, material.preconsolidation_by_ratio ? ratio : pressure);
       if (!(material.compression_slope > material.swelling_slope))
         throw section.error(compression, "It must be larger than Swelling slope.");
       const double porosity = material.initial_void_ratio / (1. + material.initial_void_ratio);
@@ -284,6 +302,60 @@ namespace kedge
         materials.push_back(material);
       }
     return materials;
+  }
+
+
+
+  namespace
+  {
+    constexpr double radians_per_degree = 3.14159265358979323846 / 180.;
+
+    void
+    divide(SpatialConstant &constant, const double by)
+    {
+      constant.value /= by;
+      constant.factor /= by;
+    }
+  } // namespace
+
+
+
+  void
+  reduce_strength(const ParameterReader &reader, std::vector<MaterialParameters> &materials)
+  {
+    const SectionReader section(reader, {});
+    const double        F = section.number("Strength reduction");
+    if (F == 1.)
+      return;
+    for (MaterialParameters &material : materials)
+      switch (material.kind)
+        {
+          case MaterialKind::hencky:
+          case MaterialKind::improved_hencky:
+            break;
+          case MaterialKind::von_mises:
+            divide(material.yield_stress, F);
+            material.hardening_modulus /= F;
+            break;
+          case MaterialKind::tresca:
+          case MaterialKind::undrained_von_mises:
+            divide(material.undrained_strength, F);
+            break;
+          case MaterialKind::drucker_prager:
+          case MaterialKind::mohr_coulomb:
+            divide(material.cohesion, F);
+            material.friction_angle =
+              std::atan(std::tan(material.friction_angle * radians_per_degree) / F) /
+              radians_per_degree;
+            material.dilation_angle = std::min(material.dilation_angle, material.friction_angle);
+            break;
+          default:
+            throw section.error("Strength reduction",
+                                "The strength of Materials/" + material.name +
+                                  " follows from its pressure and its past; only cohesion, angles "
+                                  "of friction, undrained strengths and yield stresses can be "
+                                  "reduced.");
+        }
   }
 
 

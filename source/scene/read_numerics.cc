@@ -35,6 +35,14 @@ namespace kedge
     if (time.adapt_step)
       time.maximum_step_factor = section.number("Largest step factor");
 
+    if (!section.is_empty("Failure displacement"))
+      time.failure_displacement = section.number("Failure displacement");
+    if (time.failure_displacement > 0. && time.scheme != SchemeKind::quasi_static &&
+        time.scheme != SchemeKind::clc_quasi_static)
+      throw section.error("Failure displacement",
+                          "A load has a limit without inertia only: Scheme = quasi-static or "
+                          "clc-quasi-static.");
+
     time.break_times = section.numbers("Break times");
     for (const double break_time : time.break_times)
       if (!(break_time > time.start && break_time <= time.end))

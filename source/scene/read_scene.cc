@@ -390,6 +390,7 @@ namespace kedge
       });
       errors.attempt([&]() {
         scene.materials = read_materials(reader);
+        reduce_strength(reader, scene.materials);
       });
       if (has_grid)
         errors.attempt([&]() {

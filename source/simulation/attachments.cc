@@ -288,6 +288,8 @@ namespace kedge
     const std::string hint = hint_on_points(model.scene);
     if (!hint.empty())
       out << "  note: " << hint << "\n";
+    for (const std::string &note : model.initial_stress_notes())
+      out << "  note: " << note << "\n";
     describe_conditions(model, out);
     describe_body_conditions(model, out);
     describe_regions(model, out);

@@ -71,6 +71,7 @@ namespace kedge
     for (const auto &columns : bodies.columns)
       used.insert(columns.begin(), columns.end());
     used.erase(not_in_memory);
+    used.erase(is_time_step);
     const bool plastic = std::any_of(bodies.materials.begin(), bodies.materials.end(), yields);
     return PointLayout<dim>({used.begin(), used.end()}, plastic, pores, accelerations);
   }

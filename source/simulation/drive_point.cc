@@ -27,6 +27,7 @@ namespace kedge
           test.emplace(scene.path, scene.material, scene.constants);
         else
           path.emplace(scene.path, scene.constants);
+        free_point.set_time_step(scene.path.end / scene.path.n_steps);
       }
 
       bool
@@ -71,7 +72,8 @@ namespace kedge
     {
       const std::vector<std::string> known = {"equivalent_plastic_strain",
                                               "plastic_volume_strain",
-                                              "volume_strain"};
+                                              "volume_strain",
+                                              "time_step"};
       std::vector<std::string>       result;
       for (const Column &column : columns_of(make_material(material)))
         if (std::find(known.begin(), known.end(), column.name) == known.end())

@@ -151,7 +151,7 @@ namespace kedge
     for (const auto &body : scene.bodies)
       parameters.push_back(scene.materials[body.material]);
     set_initial_history(parameters, scene.constants, made);
-    set_initial_stress(scene.bodies, bodies.materials, scene.constants, made);
+    stress_notes = set_initial_stress(scene.bodies, bodies.materials, scene.constants, made);
     for (auto &term : terms)
       term->attach(made);
 

@@ -26,6 +26,7 @@ namespace kedge
     , checkpoints(folder)
     , log(folder, scene)
     , supports(model)
+    , limit(scene.time.failure_displacement)
   {
     std::vector<std::string> probe_names;
     for (const auto &probe : scene.probes)
@@ -152,14 +153,15 @@ namespace kedge
           {
             if (reject_step(report))
               continue;
-            const std::string bad = log.bad_loads(clock.time(), clock.next_time());
-            return finish("numerical_stop", report.cause + (bad.empty() ? "" : "; " + bad));
+            return end_without_equilibrium(report);
           }
         if (const std::string bad = finish_step(report); !bad.empty())
           {
             state_is_good = false;
             return finish("numerical_stop", bad);
           }
+        if (limit.has_failed())
+          return finish("finished", "a limit load: " + limit.growth());
         if (!watch_porosity())
           {
             write_checkpoint();
@@ -208,6 +210,7 @@ namespace kedge
     const double begin = clock.time();
     row.time_step      = clock.step_size();
     step.commit();
+    watch_limit();
     clock.advance(report.newton.iterations);
     row.newton_iterations = report.newton.iterations;
     row.linear_iterations = report.newton.linear_iterations;
@@ -294,6 +297,46 @@ namespace kedge
 
 
   template <int dim>
+  void
+  Run<dim>::watch_limit()
+  {
+    if (model.scheme.dynamic)
+      return;
+    double square = 0.;
+    model.points.points().for_each_core([&](const unsigned int,
+                                            const std::uint64_t,
+                                            const dealii::Point<dim> &,
+                                            const PointCore<dim> &core) {
+      square = std::max(square, core.displacement.norm_square());
+    });
+    limit.add(row.time_step, std::sqrt(dealii::Utilities::MPI::max(square, communicator)));
+  }
+
+
+
+  template <int dim>
+  RunEnd
+  Run<dim>::end_without_equilibrium(const StepReport &report)
+  {
+    const std::string bad    = log.bad_loads(clock.time(), clock.next_time());
+    const std::string cause  = report.cause + (bad.empty() ? "" : "; " + bad);
+    const bool        is_one = bad.empty() && !report.hopeless && limit.runs_away();
+    if (is_one && model.scene.time.failure_displacement > 0.)
+      return finish("finished", "a limit load, no equilibrium beyond it: " + limit.growth());
+    const std::string growth = model.scheme.dynamic || !bad.empty() ? "" : limit.growth();
+    const std::string load   = log.factors(clock.time());
+    if (is_one)
+      return finish("numerical_stop",
+                    "no equilibrium beyond " +
+                      (load.empty() ? "this load" : "load factor " + load) + ": " + growth +
+                      "; a limit load (to find it without a stop: Time/Failure displacement); " +
+                      cause);
+    return finish("numerical_stop", cause + (growth.empty() ? "" : "; " + growth));
+  }
+
+
+
+  template <int dim>
   RunSummary
   Run<dim>::make_summary(const std::string &status, const std::string &reason)
   {
@@ -314,13 +357,15 @@ namespace kedge
     const auto count = [&](const std::string &column) {
       return static_cast<std::uint64_t>(model.ledger.value(column));
     };
-    summary.counts                     = {{"material_points", count("n_points")},
-                                          {"active_cells", count("n_active_cells")},
-                                          {"dofs", count("n_dofs")}};
-    summary.n_steps                    = clock.n_steps();
-    summary.n_newton_iterations        = counts.newton;
-    summary.n_linear_iterations        = counts.linear;
-    summary.n_rejected_attempts        = counts.rejected;
+    summary.counts              = {{"material_points", count("n_points")},
+                                   {"active_cells", count("n_active_cells")},
+                                   {"dofs", count("n_dofs")}};
+    summary.n_steps             = clock.n_steps();
+    summary.n_newton_iterations = counts.newton;
+    summary.n_linear_iterations = counts.linear;
+    summary.n_rejected_attempts = counts.rejected;
+    if (!model.scheme.dynamic)
+      summary.largest_displacement = limit.largest_displacement();
     summary.largest_condition_estimate = step.equations().largest_condition();
     summary.wall_seconds               = wall_time();
     summary.cpu_seconds                = cpu_seconds(communicator);
@@ -362,7 +407,11 @@ namespace kedge
     std::ostream &out = folder.log();
     if (finished)
       {
+        if (!reason.empty())
+          log.say_loads(clock.time());
         print_checks(summary.checks, out);
+        if (!reason.empty())
+          out << "  " << reason << std::endl;
         out << "kedge: finished at t = " << clock.time() << " s after " << clock.n_steps()
             << " steps, " << counts.newton << " Newton iterations, " << std::setprecision(3)
             << wall_time() << " s" << std::setprecision(6) << std::endl;

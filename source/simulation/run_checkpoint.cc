@@ -36,6 +36,8 @@ namespace kedge
                         {"points_times_steps", counts.points_times_steps}};
     for (const auto &[name, value] : model.ledger.save())
       data.scalars["ledger " + name] = value;
+    for (const auto &[name, value] : limit.save())
+      data.scalars["limit " + name] = value;
     data.counters = {{"steps", state.n_steps},
                      {"cuts", state.cuts},
                      {"accepted_since_cut", state.accepted_since_cut},
@@ -90,10 +92,13 @@ namespace kedge
                    data.counters.at("steps"),
                    data.counters.at("cuts"),
                    data.counters.at("accepted_since_cut")});
-    std::map<std::string, double> books;
+    std::map<std::string, double> books, watch;
     for (const auto &[name, value] : data.scalars)
       if (name.rfind("ledger ", 0) == 0)
         books[name.substr(7)] = value;
+      else if (name.rfind("limit ", 0) == 0)
+        watch[name.substr(6)] = value;
+    limit.restore(watch);
     counts.wall_before        = data.scalars.at("wall_time");
     counts.points_times_steps = data.scalars.at("points_times_steps");
     counts.newton             = data.counters.at("newton");

@@ -72,10 +72,18 @@ namespace kedge
   void
   RunLog::say_loads(const double time)
   {
-    const std::string factors = loads.factors_at(time, end);
-    if (!factors.empty())
-      folder.log() << "  loads and supports reached, as parts of those at Time/End: " << factors
+    const std::string reached = factors(time);
+    if (!reached.empty())
+      folder.log() << "  loads and supports reached, as parts of those at Time/End: " << reached
                    << std::endl;
+  }
+
+
+
+  std::string
+  RunLog::factors(const double time) const
+  {
+    return loads.factors_at(time, end);
   }
 
 

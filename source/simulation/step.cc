@@ -94,6 +94,8 @@ namespace kedge
         n_nodes.push_back(field->patch.nodes.n_local());
       // x = 0 as in (3.184): the velocities of the points hold more than a smooth motion
       trial.begin(times, model.unknowns, n_nodes);
+      for (auto &field : model.fields)
+        field->patch.set_time_step(times.dt);
       const LinearStatus mapped = points_to_nodes();
       if (!mapped.success)
         {

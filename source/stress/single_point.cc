@@ -37,8 +37,11 @@ namespace kedge
     const double borne = pressure > 0. ? pressure : parameters.reference_pressure;
     if (!(borne > 0.))
       return;
-    const auto strain =
-      initial_elastic_strain(material, {{-borne, -borne, -borne}}, present.history);
+    const auto start = initial_state(material, {{-borne, -borne, -borne}}, present.history);
+    if (start.returned > 0.)
+      throw UserError("it lies beyond the yield surface");
+    const auto &strain = start.strain;
+    present.history    = start.history;
     for (int i = 0; i < 3; ++i)
       {
         present.elastic_frame[i][i]    = std::exp(strain[i]);
@@ -90,6 +93,8 @@ namespace kedge
     for (unsigned int c = 0; c < columns.size(); ++c)
       if (columns[c].kind == ColumnKind::volume_strain)
         history[c] = std::log(determinant(present.deformation_gradient));
+      else if (columns[c].kind == ColumnKind::time_step)
+        history[c] = time_step;
     return std::visit(
       [&](const auto &law) {
         using Law = std::decay_t<decltype(law)>;

@@ -45,7 +45,8 @@ namespace kedge
         }
     consolidated_strain = strain_n;
     closed_volume       = determinant(point.state().deformation_gradient);
-    undrained           = parameters.undrained;
+    point.set_time_step(parameters.end / parameters.n_steps);
+    undrained = parameters.undrained;
     return true;
   }
 

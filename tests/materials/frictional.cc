@@ -46,7 +46,7 @@ namespace
   expect_row(const Law &law, const Row &row)
   {
     const double nothing[3] = {0., 0., 0.};
-    const auto   r          = law.respond(nothing, row.strain, HistoryOf<Law>{0., 0., 10e3});
+    const auto   r          = law.respond(nothing, row.strain, HistoryOf<Law>{0., 0., 10e3, 1.});
     ASSERT_TRUE(r.valid);
     // to the digits printed
     for (int i = 0; i < 3; ++i)
@@ -71,7 +71,9 @@ namespace
             parameters.tension_cut_off    = repeat % 2 == 0 ? 0.8 : 0.3;
             const Law          law(parameters);
             PrincipalStep<Law> step;
-            step.history = {0.1, 0.2, 0.005 * (1.2 + uniform(generator))};
+            // a soft place, of which the shear strength is as large as elsewhere over its G
+            const double stiffness = repeat % 3 == 0 ? 0.25 : 1.;
+            step.history = {0.1, 0.2, stiffness * 0.005 * (1.2 + uniform(generator)), stiffness};
             for (int i = 0; i < 3; ++i)
               {
                 step.strain[i]    = 2e-3 * uniform(generator) + 0.2 * mean;
@@ -145,6 +147,35 @@ TYPED_TEST(MaterialsFrictional, SlopesAreThoseOf113BitDifferences)
   });
 }
 
+TYPED_TEST(MaterialsFrictional, StiffnessOfPlaceIsThatOfTheModuli)
+{
+  // a quarter of the stiffness of the place, or of both moduli: the same
+  for_random_steps<TypeParam>([](const auto &law, const auto &step, const auto &) {
+    MaterialParameters parameters = sand(12e6);
+    parameters.dilation_angle     = 10.;
+    parameters.tension_cut_off    = law.cut_off;
+    const TypeParam of_place(parameters);
+    parameters.young_modulus *= 0.25;
+    const TypeParam soft(parameters);
+    auto            history = step.history;
+    history.stiffness       = 0.25;
+    const auto   r          = of_place.respond(step.strain, step.increment, history);
+    const double energy     = of_place.energy(step.strain, history);
+    history.stiffness       = 1.;
+    const auto expected     = soft.respond(step.strain, step.increment, history);
+    EXPECT_NEAR(energy, soft.energy(step.strain, history), 1e-16);
+    EXPECT_NEAR(r.work_increment, expected.work_increment, 1e-16);
+    EXPECT_NEAR(r.dissipation, expected.dissipation, 1e-16);
+    for (int i = 0; i < 3; ++i)
+      {
+        EXPECT_NEAR(r.kirchhoff_stress[i], expected.kirchhoff_stress[i], 1e-15);
+        EXPECT_NEAR(of_place.work_slope(r, i), soft.work_slope(expected, i), 1e-14);
+        for (int j = 0; j < 3; ++j)
+          EXPECT_NEAR(r.tangent[i][j], expected.tangent[i][j], 1e-13);
+      }
+  });
+}
+
 TEST(MaterialsDruckerPrager, FollowsTheTableOfAnotherProgram)
 {
   MaterialParameters parameters = sand(1.);
@@ -193,7 +224,7 @@ TEST(MaterialsMohrCoulomb, FollowsTheTableOfAnotherProgram)
          {{2e-3, 1.8e-3, 1.5e-3}, {17320.5081, 17320.5081, 17320.5081}, 76.7986928}})
     expect_row(law, row);
   const double nothing[3] = {0., 0., 0.}, strain[3] = {1e-3, -2e-4, -2.2e-3};
-  const auto   r              = law.respond(nothing, strain, HistoryOf<MohrCoulomb>{0., 0., 10e3});
+  const auto   r = law.respond(nothing, strain, HistoryOf<MohrCoulomb>{0., 0., 10e3, 1.});
   const double expected[3][3] = {{8449058.29, 5112264.57, 12000000},
                                  {8449058.29, 35112264.57, 12000000},
                                  {25347174.88, 15336793.72, 36000000}};

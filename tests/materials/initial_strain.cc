@@ -96,6 +96,46 @@ TEST(MaterialsInitialStrain, StressesBeyondTheYieldSurfaceAreRefused)
       EXPECT_THROW(strain_of(material, {{1., 1., 1.}}), UserError);
       EXPECT_THROW(strain_of(material, {{0., -3e5, 0.}}), UserError);
     }
+  // returned instead: von Mises' deviator shrinks to its radius, the pressure stays
+  const InitialState start = initial_state(laws[2], {{2e5, 0., 0.}}, virgin(laws[2]));
+  const double       third = 2e5 / 3.;
+  // q = sigma_y + H alpha, alpha = (q^tr - sigma_y)/(3 G + H), as in any step from there
+  const double q = 1e5 + 1e6 * 1e5 / (3. * 28e6 + 1e6);
+  EXPECT_NEAR(start.stress[0] - start.stress[1], q, 1e-9 * q);
+  EXPECT_NEAR(start.strain[0] - start.strain[1], q / (2. * 28e6), 1e-9 * q / 28e6);
+  EXPECT_NEAR(start.stress[0] + start.stress[1] + start.stress[2], 3. * third, 1e-9 * third);
+  EXPECT_NEAR(start.returned, (2e5 - start.stress[0]) / 2e5, 1e-15);
+  EXPECT_NEAR(start.history[0], 1e5 / (3. * 28e6 + 1e6), 1e-12);
   EXPECT_NO_THROW(strain_of(laws[3], {{-2.499e5, -2.499e5, -2.499e5}}));
   EXPECT_THROW(strain_of(laws[3], {{-2.501e5, -2.501e5, -2.501e5}}), UserError);
+}
+
+TEST(MaterialsInitialStrain, PreconsolidationByItsRatioFollowsTheStress)
+{
+  // M = 1: the surface through p = 1e5, q = 5e4 has p_c = p + q^2/p = 1.25e5
+  MaterialParameters parameters;
+  parameters.young_modulus                   = 1e7;
+  parameters.poisson_ratio                   = 0.;
+  parameters.swelling_slope                  = 0.02;
+  parameters.compression_slope               = 0.2;
+  parameters.initial_void_ratio              = 1.;
+  parameters.critical_state_ratio            = 1.;
+  parameters.reference_pressure              = 1e3;
+  parameters.start_preconsolidation_pressure = 1.5;
+  parameters.preconsolidation_by_ratio       = true;
+  const Material law                         = ModifiedCamClay(parameters);
+  // vertical less by q of horizontal: p + 2 q/3, p - q/3
+  const double vertical = -(1e5 + 5e4 * 2. / 3.), horizontal = -(1e5 - 5e4 / 3.);
+  const auto   start =
+    initial_state(law, {{horizontal, vertical, horizontal}}, start_history(law, parameters));
+  EXPECT_NEAR(start.history[2], 1.5 * 1.25e5, 1e-9 * 1e5);
+  EXPECT_EQ(start.returned, 0.);
+  // normally consolidated: on the surface, which is no stress beyond it
+  parameters.start_preconsolidation_pressure = 1.;
+  const Material normal                      = ModifiedCamClay(parameters);
+  EXPECT_EQ(initial_state(normal,
+                          {{horizontal, vertical, horizontal}},
+                          start_history(normal, parameters))
+              .returned,
+            0.);
 }

@@ -70,7 +70,12 @@ namespace kedge::test
         before[i] = step.strain[i];
         after[i]  = Quad(step.strain[i]) + step.increment[i] - exact.plastic_strain[i];
       }
-    const Quad stored = law.elastic.energy(after) - law.elastic.energy(before);
+    HistoryOf<Law, Quad> history;
+    double               columns[most_law_columns] = {};
+    write_history<Law>(step.history, columns);
+    for (unsigned int c = 0; c < n_columns<Law>; ++c)
+      reinterpret_cast<Quad *>(&history)[c] = columns[c];
+    const Quad stored = law.energy(after, history) - law.energy(before, history);
     Quad       lost   = 0;
     for (int i = 0; i < 3; ++i)
       lost += exact.kirchhoff_stress[i] * exact.plastic_strain[i];

@@ -23,7 +23,7 @@ namespace
 {
   /** G = 1, so that stresses are of the size of strains. */
   MaterialParameters
-  clay(const double remoulded)
+  clay(const double remoulded, const double rate_coefficient = 0.)
   {
     MaterialParameters parameters;
     parameters.young_modulus      = 2.6;
@@ -31,6 +31,8 @@ namespace
     parameters.undrained_strength = 0.1;
     parameters.remoulded_strength = remoulded;
     parameters.softening_strain   = 2.;
+    parameters.rate_coefficient   = rate_coefficient;
+    parameters.reference_rate     = 1e-3;
     return parameters;
   }
 
@@ -48,11 +50,15 @@ namespace
     std::uniform_real_distribution<double> uniform(-1, 1);
     int                                    n_plastic = 0, n_steps = 0;
     for (const double remoulded : {1., 0.25})
-      for (int repeat = 0; repeat < 100; ++repeat)
+      for (int repeat = 0; repeat < 150; ++repeat)
         {
-          const Law          law(clay(remoulded));
+          // rates of xi up to 100 times the reference in one half, up to 1/100 of it in a tenth
+          const Law          law(clay(remoulded, repeat % 2 == 0 ? 0. : 0.1));
           PrincipalStep<Law> step;
-          step.history = {0.3, 0.5 * (1. + uniform(generator)), 0.1};
+          step.history = {0.3,
+                          0.5 * (1. + uniform(generator)),
+                          0.1,
+                          repeat % 10 == 9 ? 1e4 : 1. + 0.5 * uniform(generator)};
           for (int i = 0; i < 3; ++i)
             {
               step.strain[i]    = 0.03 * uniform(generator);
@@ -92,17 +98,24 @@ TYPED_TEST_SUITE(MaterialsUndrainedClay, Laws);
 TYPED_TEST(MaterialsUndrainedClay, EndsOnTheSurfaceThatHasSoftened)
 {
   for_random_steps<TypeParam>([](const auto &law, const auto &step, const auto &r) {
-    const auto   end = law.updated(r, step.history);
-    const double s_u =
-      0.1 * (law.strength.remoulded +
-             (1. - law.strength.remoulded) * std::exp(-3. * end.plastic_shear_strain / 2.));
-    // stresses of order 0.1 with a few roundings
+    const auto   end   = law.updated(r, step.history);
+    const double ratio = (end.plastic_shear_strain - step.history.plastic_shear_strain) /
+                         step.history.time_step / 1e-3;
+    const double s_u = 0.1 *
+                       (1. + law.strength.rate_coefficient * std::log10(std::max(ratio, 1.))) *
+                       (law.strength.remoulded + (1. - law.strength.remoulded) *
+                                                   std::exp(-3. * end.plastic_shear_strain / 2.));
+    // stresses of order 0.1 with a few roundings; those of the ratio come from a difference
     if (r.dissipation > 0.)
-      EXPECT_NEAR(shear(law, r.kirchhoff_stress), s_u, 1e-15);
+      EXPECT_NEAR(shear(law, r.kirchhoff_stress),
+                  s_u,
+                  law.strength.rate_coefficient > 0. ? 1e-13 : 1e-15);
     else
       EXPECT_LE(shear(law, r.kirchhoff_stress), s_u * (1. + 1e-15));
     // dD = s_u d xi >= 0, no change of volume, and no strength of place that changes
-    EXPECT_NEAR(r.dissipation, s_u * r.softening_strain, 1e-16);
+    EXPECT_NEAR(r.dissipation,
+                s_u * r.softening_strain,
+                law.strength.rate_coefficient > 0. ? 1e-14 : 1e-16);
     EXPECT_GE(r.dissipation, 0.);
     EXPECT_NEAR(r.plastic_strain[0] + r.plastic_strain[1] + r.plastic_strain[2], 0., 1e-16);
     EXPECT_EQ(end.undrained_strength, 0.1);
@@ -122,6 +135,66 @@ TYPED_TEST(MaterialsUndrainedClay, EndsOnTheSurfaceThatHasSoftened)
         EXPECT_LE(work, r.dissipation + 1e-16);
       }
   });
+}
+
+TYPED_TEST(MaterialsUndrainedClay, LanesAnswerAsPointsDo)
+{
+  // packs whose lanes are elastic, on faces and on edges at once: to round-off the same
+  std::vector<PrincipalStep<TypeParam>> steps;
+  for_random_steps<TypeParam>([&](const auto &law, const auto &step, const auto &) {
+    if (law.strength.rate_coefficient > 0. && law.strength.remoulded < 1.)
+      steps.push_back(step);
+  });
+  const TypeParam law(clay(0.25, 0.1));
+  for (std::size_t first = 0; first + pack_width <= steps.size(); first += pack_width)
+    {
+      Pack                       strain[3], increment[3];
+      HistoryOf<TypeParam, Pack> history;
+      for (unsigned int lane = 0; lane < pack_width; ++lane)
+        {
+          const auto &step = steps[first + lane];
+          for (int i = 0; i < 3; ++i)
+            {
+              strain[i].set(lane, step.strain[i]);
+              increment[i].set(lane, step.increment[i]);
+            }
+          history.equivalent_plastic_strain.set(lane, step.history.equivalent_plastic_strain);
+          history.plastic_shear_strain.set(lane, step.history.plastic_shear_strain);
+          history.undrained_strength.set(lane, step.history.undrained_strength);
+          history.time_step.set(lane, step.history.time_step);
+        }
+      const auto together = law.respond(strain, increment, history);
+      for (unsigned int lane = 0; lane < pack_width; ++lane)
+        {
+          const auto &step  = steps[first + lane];
+          const auto  alone = law.respond(step.strain, step.increment, step.history);
+          EXPECT_TRUE(together.valid[lane]);
+          for (int i = 0; i < 3; ++i)
+            {
+              EXPECT_NEAR(together.kirchhoff_stress[i][lane], alone.kirchhoff_stress[i], 1e-14);
+              EXPECT_NEAR(together.plastic_strain[i][lane], alone.plastic_strain[i], 1e-14);
+              for (int j = 0; j < 3; ++j)
+                EXPECT_NEAR(together.tangent[i][j][lane], alone.tangent[i][j], 1e-12);
+            }
+        }
+    }
+}
+
+TYPED_TEST(MaterialsUndrainedClay, FasterShearMeetsMoreStrength)
+{
+  // perfect plasticity: R = 1 + .1 log10(rate/reference) = 1, 1.1, 1.3 at ratios 1, 10, 1000
+  const TypeParam law(clay(1., 0.1));
+  const double    on_surface[3] = {0.05, 0., -0.05}; // tau_1 - tau_3 = 2 s_u at G = 1
+  for (const auto &[ratio, factor] : {std::pair{1., 1.}, {10., 1.1}, {1000., 1.3}, {1e-3, 1.}})
+    {
+      // d xi = the increment of eps_1 - eps_3 less the elastic part that the growth of s_u takes
+      const double growth = 0.02, dt = growth / (1e-3 * ratio);
+      const double elastic = 0.1 * (factor - 1.) / 2.; // of each of eps_1, -eps_3
+      const double step[3] = {0.5 * growth + elastic, 0., -0.5 * growth - elastic};
+      const auto   r       = law.respond(on_surface, step, HistoryOf<TypeParam>{0., 0., 0.1, dt});
+      EXPECT_NEAR(shear(law, r.kirchhoff_stress), 0.1 * factor, 1e-14);
+      EXPECT_NEAR(r.softening_strain, growth, 1e-13);
+    }
 }
 
 TYPED_TEST(MaterialsUndrainedClay, SlopesAreThoseOf113BitDifferences)

@@ -160,3 +160,90 @@ TEST(SceneSoils, ElementTestsThatDoNotFitAreRefused)
   expect_parts(with_strain("Path/Drainage = drained"),
                {"Consolidation pressure", "belongs to Control"});
 }
+
+TEST(SceneSoils, StrengthsOfPlaceRateAndPastAreRead)
+{
+  const std::vector<std::string> clay = {"Path/Drainage = drained",
+                                         "Path/Fluid bulk modulus =",
+                                         "Materials/clay/Preconsolidation pressure =",
+                                         "Materials/clay/Critical state slope =",
+                                         "Materials/clay/Surface alpha =",
+                                         "Materials/clay/Surface gamma ="};
+  const auto                     with = [&](const std::vector<std::string> &more) {
+    std::vector<std::string> settings = clay;
+    for (const std::string &setting : more)
+      settings.push_back("Materials/clay/" + setting);
+    return settings;
+  };
+  const std::vector<std::string> tresca = {"Model = tresca",
+                                           "Undrained strength = 1e4",
+                                           "Rate coefficient = 0.1",
+                                           "Reference shear rate = 1e-3"};
+  EXPECT_EQ(read(with(tresca)).material.rate_coefficient, 0.1);
+  EXPECT_EQ(read(with(tresca)).material.reference_rate, 1e-3);
+  expect_parts(path_message(with({tresca[0], tresca[1], tresca[2]})),
+               {"Reference shear rate", "needs it"});
+  expect_parts(path_message(with({tresca[0], tresca[1], tresca[3]})),
+               {"Reference shear rate", "belongs to a Rate coefficient"});
+  expect_parts(path_message(with({"Model = hencky", "Rate coefficient = 0.1"})),
+               {"Rate coefficient", "belongs to Undrained strength"});
+  expect_parts(path_message(with({"Model = hencky", "Stiffness factor = 2"})),
+               {"Stiffness factor", "belongs to models drucker_prager and mohr_coulomb"});
+
+  std::vector<std::string> sand = {"Model = mohr_coulomb",
+                                   "Cohesion = 1e3",
+                                   "Friction angle = 30",
+                                   "Dilation angle = 25",
+                                   "Stiffness factor = 2 + y"};
+  EXPECT_EQ(read(with(sand)).material.stiffness_factor.value, 2.);
+  EXPECT_EQ(read(with(sand)).material.stiffness_factor.expression, "2 + y");
+  sand.back() = "Stiffness factor = 0";
+  expect_parts(path_message(with(sand)), {"Stiffness factor", "greater than 0"});
+
+  const std::vector<std::string> cam_clay = {"Model = modified_cam_clay",
+                                             "Bulk modulus =",
+                                             "Initial porosity =",
+                                             "Swelling slope = 0.02",
+                                             "Compression slope = 0.2",
+                                             "Initial void ratio = 1",
+                                             "Critical state slope = 1",
+                                             "Overconsolidation ratio = 1.5"};
+  const MaterialParameters       by_ratio = read(with(cam_clay)).material;
+  EXPECT_TRUE(by_ratio.preconsolidation_by_ratio);
+  EXPECT_EQ(by_ratio.start_preconsolidation_pressure.value, 1.5);
+  auto both = with(cam_clay);
+  both.push_back("Materials/clay/Preconsolidation pressure = 1e5");
+  expect_parts(path_message(both), {"Only one of Preconsolidation pressure and Over"});
+  both.back() = "Materials/clay/Overconsolidation ratio =";
+  expect_parts(path_message(both), {"Either Preconsolidation pressure or Over"});
+  expect_parts(path_message(with({"Model = hencky", "Overconsolidation ratio = 2"})),
+               {"Overconsolidation ratio", "belongs to model modified_cam_clay"});
+}
+
+TEST(SceneSoils, StrengthsAreReduced)
+{
+  // c/F, tan phi/F, psi at most phi; s_u/F; what has no strength of its own cannot be reduced
+  const std::vector<std::string> clay = {"Strength reduction = 1.25",
+                                         "Path/Drainage = drained",
+                                         "Path/Fluid bulk modulus =",
+                                         "Materials/clay/Preconsolidation pressure =",
+                                         "Materials/clay/Critical state slope =",
+                                         "Materials/clay/Surface alpha =",
+                                         "Materials/clay/Surface gamma ="};
+  auto                           sand = clay, stiff = clay;
+  for (const std::string entry : {"Model = drucker_prager",
+                                  "Cohesion = 1e3*(1 + y)",
+                                  "Friction angle = 30",
+                                  "Dilation angle = 28"})
+    sand.push_back("Materials/clay/" + std::string(entry));
+  const MaterialParameters reduced = read(sand).material;
+  const double             phi     = std::atan(std::tan(std::acos(-1.) / 6.) / 1.25);
+  EXPECT_NEAR(reduced.friction_angle, phi * 180. / std::acos(-1.), 1e-12);
+  EXPECT_EQ(reduced.dilation_angle, reduced.friction_angle);
+  EXPECT_NEAR(reduced.cohesion.value, 800., 1e-10);
+  EXPECT_NEAR(reduced.cohesion.factor, 0.8, 1e-15);
+  for (const std::string entry : {"Model = tresca", "Undrained strength = 1e4"})
+    stiff.push_back("Materials/clay/" + std::string(entry));
+  EXPECT_NEAR(read(stiff).material.undrained_strength.value, 8000., 1e-9);
+  expect_parts(path_message({"Strength reduction = 2"}), {"Strength reduction", "Materials/clay"});
+}

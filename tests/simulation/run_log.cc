@@ -1,6 +1,7 @@
 #include "../io/scratch_folder.h"
 
 #include <kedge/io/files.h>
+#include <kedge/simulation/limit_watch.h>
 #include <kedge/simulation/outlook.h>
 #include <kedge/simulation/rejections.h>
 
@@ -47,4 +48,30 @@ TEST(SimulationRejections, ThoseThatRepeatAreSummedUp)
   EXPECT_NE(log.find("t = 1000 s rejected: last cause; the step is at its floor"),
             std::string::npos);
   EXPECT_EQ(rejections.last_cause(), "last cause");
+}
+
+TEST(SimulationLimitWatch, TellsALimitLoadByHowDisplacementsGrow)
+{
+  LimitWatch watch(0.05);
+  EXPECT_EQ(watch.growth(), "");
+  watch.add(0.5, 0.); // nothing has moved yet
+  EXPECT_EQ(watch.growth(), "");
+  watch.add(0.5, 0.005); // .01 m/s
+  watch.add(0.5, 0.025); // four times as fast
+  EXPECT_FALSE(watch.runs_away());
+  EXPECT_FALSE(watch.has_failed());
+  watch.add(0.25, 0.05); // ten times
+  EXPECT_TRUE(watch.runs_away());
+  EXPECT_TRUE(watch.has_failed());
+  EXPECT_EQ(
+    watch.growth(),
+    "the largest displacement, 0.05 m, was still growing at 0.1 m/s, 10 times as fast as in "
+    "the first step");
+  LimitWatch other(0.);
+  other.restore(watch.save());
+  EXPECT_EQ(other.growth(), watch.growth());
+  EXPECT_FALSE(other.has_failed()); // no failure displacement
+  other.add(0.5, 0.05);
+  EXPECT_NE(other.growth().find("was not growing"), std::string::npos);
+  EXPECT_FALSE(other.runs_away());
 }

@@ -36,13 +36,14 @@ namespace
   /** The stress, Pa, is that of the given expressions at x = 2. */
   template <int dim>
   std::vector<GeneratedPoint<dim>>
-  start(const Material &material, const std::vector<std::string> &stress)
+  start(const Material &material, const std::vector<std::string> &stress, std::string &notes)
   {
     std::vector<BodyParameters<dim>> bodies(1);
     bodies[0].name                          = "soil";
     bodies[0].initial_stress                = stress;
     std::vector<GeneratedPoint<dim>> points = {point_at_rest<dim>(2.)};
-    set_initial_stress(bodies, {material}, {}, points);
+    for (const std::string &note : set_initial_stress(bodies, {material}, {}, points))
+      notes += note;
     return points;
   }
 } // namespace
@@ -58,7 +59,9 @@ TYPED_TEST(SolidInitialStress, StaysWhereNothingMoves)
                                                         ImprovedHencky(soil()),
                                                         CriticalState<ImprovedHencky>(soil())})
     {
-      const auto       points            = start<dim>(material, dim == 2 ? in_plane : given);
+      std::string notes;
+      const auto  points = start<dim>(material, dim == 2 ? in_plane : given, notes);
+      EXPECT_EQ(notes, "");
       const auto      &state             = points[0].record.state;
       const auto       stress            = make_stress_state<dim>(state.elastic_frame,
                                                  state.out_of_plane_elastic_stretch,
@@ -83,20 +86,51 @@ TYPED_TEST(SolidInitialStress, StaysWhereNothingMoves)
     }
 }
 
-TYPED_TEST(SolidInitialStress, IsRefusedBeyondTheYieldSurface)
+TYPED_TEST(SolidInitialStress, IsReturnedToTheYieldSurface)
 {
+  // Tresca, s_u = 1e5, and principal stresses of -4e5 and 0 in turned axes: 45 degrees in x, y.
+  // The middle one is their mean: the mean stays, the difference becomes 2e5.
+  constexpr int      dim = TypeParam::value;
+  MaterialParameters parameters;
+  parameters.young_modulus        = 2.5e8;
+  parameters.poisson_ratio        = 0.25;
+  parameters.undrained_strength   = 1e5;
+  std::vector<std::string> stress = {"-x*1e5", "-2e5", "-2e5", "2e5", "0", "0"};
+  stress.resize(dim == 2 ? 4 : 6);
+  std::vector<BodyParameters<dim>> bodies(1);
+  bodies[0].name                          = "soil";
+  bodies[0].initial_stress                = stress;
+  std::vector<GeneratedPoint<dim>> points = {point_at_rest<dim>(2.), point_at_rest<dim>(2.)};
+  const unsigned int               s_u    = memory_index("undrained_strength");
+  points[0].record.state.memory[s_u]      = 1e5;
+  points[1].record.state.memory[s_u]      = 1e6;
+  const auto notes = set_initial_stress(bodies, {Tresca(parameters)}, {}, points);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("1 of 2 material points (50 %)"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("up to 25 %"), std::string::npos) << notes[0];
+  const auto &tau = points[0].record.state.kirchhoff_stress;
+  EXPECT_NEAR(tau[0][1], 1e5, 1e-9 * 1e5);
+  EXPECT_NEAR(tau[0][0], -2e5, 1e-9 * 1e5);
+  EXPECT_NEAR(tau[1][1], -2e5, 1e-9 * 1e5);
+  EXPECT_NEAR(points[1].record.state.kirchhoff_stress[0][1], 2e5, 1e-9 * 1e5);
+}
+
+TYPED_TEST(SolidInitialStress, IsRefusedWhereThereIsNoReturn)
+{
+  // the improved law cannot bear a tension of K_0/(2 c)
   constexpr int            dim    = TypeParam::value;
-  std::vector<std::string> stress = {"-x*2e5", "0", "0", "0", "0", "0"};
+  std::vector<std::string> stress = {"x*1e7", "2e7", "2e7", "0", "0", "0"};
   stress.resize(dim == 2 ? 4 : 6);
   try
     {
-      start<dim>(CriticalState<Hencky>(soil()), stress);
+      std::string notes;
+      start<dim>(CriticalState<ImprovedHencky>(soil()), stress, notes);
       FAIL();
     }
   catch (const UserError &error)
     {
       const std::string message = error.what();
       EXPECT_NE(message.find("Bodies/soil/Initial stress at (2 0"), std::string::npos) << message;
-      EXPECT_NE(message.find("yield surface"), std::string::npos);
+      EXPECT_NE(message.find("beyond what the improved Hencky law"), std::string::npos) << message;
     }
 }

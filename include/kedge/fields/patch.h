@@ -46,6 +46,13 @@ namespace kedge
     void
     reinit(const MaterialPoints<dim> &cloud, const Reach &reach);
 
+    /** How long the step is, for laws that depend on the rate [s]. */
+    void
+    set_time_step(const double dt)
+    {
+      points.set_time_step(dt, parameters.columns_of_body);
+    }
+
     const BackgroundGrid<dim> &
     grid() const
     {

@@ -64,10 +64,9 @@ namespace kedge
     /**
      * Reads the cloud; @p basis_of_body says which stencil each body uses,
      * @p columns_of_body where the columns of a body's history stand in
-     * PointState::memory (most_memory_columns or more: it is ln det F; empty:
-     * no body has a history), @p shared_volume whose points share their change
-     * of volume (empty: nobody's), @p members which bodies' points to take
-     * (empty: all).
+     * PointState::memory (not_in_memory: it is ln det F; is_time_step: see
+     * set_time_step(); empty: no body has a history), @p shared_volume whose points share their
+     * change of volume (empty: nobody's), @p members which bodies' points to take (empty: all).
      */
     void
     reinit(const BackgroundGrid<dim>    &grid,
@@ -76,6 +75,10 @@ namespace kedge
            const MemoryColumns          &columns_of_body = {},
            const std::vector<bool>      &shared_volume   = {},
            const std::vector<bool>      &members         = {});
+
+    /** Tells the histories whose laws ask for it how long the step is [s]. */
+    void
+    set_time_step(const double dt, const MemoryColumns &columns_of_body);
 
     /** Numbers of the history of the point in a slot, in the columns of its body's law. */
     const double *

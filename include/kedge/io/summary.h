@@ -21,7 +21,7 @@ namespace kedge
     std::string  scene;
     std::string  title;
     std::string  status; ///< finished, interrupted, numerical_stop
-    std::string  reason; ///< of a stop; else empty
+    std::string  reason; ///< of a stop, or of a limit load; else empty
     unsigned int dim     = 2;
     unsigned int n_ranks = 1;
 
@@ -40,6 +40,8 @@ namespace kedge
     std::map<std::string, double> phase_wall_seconds;
     std::map<std::string, double> phase_cpu_seconds;     ///< of all ranks together
     double                        peak_memory_bytes = 0; ///< of all ranks together
+
+    double largest_displacement = HistoryRow::unset; ///< of a point, of quasi-static runs [m]
 
     /** Material points times Newton iterations over the time spent in them [1/s]. */
     double point_updates_per_second = HistoryRow::unset;

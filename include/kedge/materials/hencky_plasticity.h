@@ -25,6 +25,8 @@ namespace kedge
    *   dD = tau_{n+1} : d eps^p,  d eps^p = eps^tr - eps^e_{n+1},
    *   d(dPsi + dD)/d eps^tr = tau + (d tau/d eps^tr)^T : d eps^p.
    * (The second term vanishes for associated perfect plasticity only.)
+   * If Law::stiffness_of_place, both moduli are history.stiffness times those of the parameters:
+   * stresses are those of the soil whose strength is that much smaller, times it.
    *
    * @tparam Law gives return_stress(trial stress, history, response), which sets
    * plastic_strain, tangent, softening_strain and valid; handed over, they are
@@ -61,7 +63,7 @@ namespace kedge
         }
       response.softening_strain = 0.;
       response.valid            = response.softening_strain <= 0.;
-      law().return_stress(trial.kirchhoff_stress, history, response);
+      law().return_stress(trial.kirchhoff_stress, softer(history), response);
 
       Number elastic_increment[3];
       for (int i = 0; i < 3; ++i)
@@ -74,6 +76,8 @@ namespace kedge
           response.dissipation += end.kirchhoff_stress[i] * response.plastic_strain[i];
         }
       response.work_increment = end.work_increment + response.dissipation;
+      if constexpr (Law::stiffness_of_place)
+        stiffen(history.stiffness, response);
       return response;
     }
 
@@ -115,9 +119,15 @@ namespace kedge
     /** Elastic free energy of the elastic strain [J/m^3]. */
     template <typename Number, class History>
     Number
-    energy(const Number (&elastic_strain)[3], const History &) const
+    energy(const Number (&elastic_strain)[3], const History &history) const
     {
-      return elastic.energy(elastic_strain);
+      if constexpr (Law::stiffness_of_place)
+        return history.stiffness * elastic.energy(elastic_strain);
+      else
+        {
+          (void)history;
+          return elastic.energy(elastic_strain);
+        }
     }
 
     /** Part of the strain increment in direction i that is plastic [-]. */
@@ -168,6 +178,31 @@ namespace kedge
     }
 
   private:
+    /** The history of the soil of stiffness 1. */
+    template <class History>
+    static History
+    softer(const History &history)
+    {
+      History result = history;
+      if constexpr (Law::stiffness_of_place)
+        result.cohesion /= history.stiffness;
+      return result;
+    }
+
+    template <typename Number>
+    static void
+    stiffen(const Number &stiffness, Response<Number> &response)
+    {
+      response.work_increment *= stiffness;
+      response.dissipation *= stiffness;
+      for (int i = 0; i < 3; ++i)
+        {
+          response.kirchhoff_stress[i] *= stiffness;
+          for (int j = 0; j < 3; ++j)
+            response.tangent[i][j] *= stiffness;
+        }
+    }
+
     const Law &
     law() const
     {

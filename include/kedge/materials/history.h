@@ -12,9 +12,10 @@ namespace kedge
   /** What a column of a law's history is. */
   enum class ColumnKind
   {
-    remembered,   ///< changes with the steps
-    of_place,     ///< a constant of the law that may differ from place to place
-    volume_strain ///< ln det F; not stored, the deformation gradient gives it
+    remembered,    ///< changes with the steps
+    of_place,      ///< a constant of the law that may differ from place to place
+    volume_strain, ///< ln det F; not stored, the deformation gradient gives it
+    time_step      ///< that of the present step [s]; not stored
   };
 
   /** A number that a law answers by beside the elastic strain, as committed. */
@@ -25,6 +26,12 @@ namespace kedge
     const char *meaning;
     ColumnKind  kind = ColumnKind::remembered;
   };
+
+  /** Instead of a memory_index(): the column is ln det F. */
+  constexpr unsigned int not_in_memory = static_cast<unsigned int>(-1);
+
+  /** Instead of a memory_index(): the column is the present time step. */
+  constexpr unsigned int is_time_step = static_cast<unsigned int>(-2);
 
   /** Columns that a single law may have. */
   constexpr unsigned int most_law_columns = 8;

@@ -79,10 +79,7 @@ namespace kedge
   unsigned int
   memory_index(const std::string &name);
 
-  /** Instead of a memory_index(): the column is ln det F. */
-  constexpr unsigned int not_in_memory = static_cast<unsigned int>(-1);
-
-  /** For each of the columns of a material its memory_index(), or not_in_memory. */
+  /** For each of the columns of a material its memory_index(), not_in_memory or is_time_step. */
   std::vector<unsigned int>
   memory_indices(const Material &material);
 

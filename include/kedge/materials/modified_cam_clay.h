@@ -77,8 +77,11 @@ namespace kedge
       , lambda(parameters.compression_slope / (1. + parameters.initial_void_ratio))
       , critical_state_ratio(parameters.critical_state_ratio)
       , reference_pressure(parameters.reference_pressure)
-      , largest_pressure(
-          std::max(parameters.start_preconsolidation_pressure.value, parameters.reference_pressure))
+      , largest_pressure(parameters.preconsolidation_by_ratio
+                           ? parameters.reference_pressure
+                           : std::max(parameters.start_preconsolidation_pressure.value,
+                                      parameters.reference_pressure))
+      , preconsolidation_by_ratio(parameters.preconsolidation_by_ratio)
     {}
 
     /** p at an elastic volume strain, compression positive [Pa]. */
@@ -237,12 +240,14 @@ namespace kedge
       return largest_pressure / kappa + 4. / 3. * shear_modulus;
     }
 
-    const double shear_modulus;        ///< G [Pa]
-    const double kappa;                ///< of swelling, by logarithmic strain [-]
-    const double lambda;               ///< of compression, by logarithmic strain [-]
-    const double critical_state_ratio; ///< M = q/p at the critical state [-]
-    const double reference_pressure;   ///< p_r [Pa]
-    const double largest_pressure;     ///< [Pa]
+    const double shear_modulus;             ///< G [Pa]
+    const double kappa;                     ///< of swelling, by logarithmic strain [-]
+    const double lambda;                    ///< of compression, by logarithmic strain [-]
+    const double critical_state_ratio;      ///< M = q/p at the critical state [-]
+    const double reference_pressure;        ///< p_r [Pa]
+    const double largest_pressure;          ///< [Pa]
+    const bool   preconsolidation_by_ratio; ///< p_c at the start is given over that of the surface
+                                            ///< through the initial stress
 
   private:
     /** What the return starts from. */

@@ -26,13 +26,15 @@ namespace kedge
   class MohrCoulomb : public HenckyPlasticity<MohrCoulomb>
   {
   public:
-    static constexpr bool decoupled_volume = false;
-    static constexpr bool takes_packs      = false;
+    static constexpr bool decoupled_volume   = false;
+    static constexpr bool takes_packs        = false;
+    static constexpr bool stiffness_of_place = true;
 
-    static constexpr std::array<Column, 3> columns{
+    static constexpr std::array<Column, 4> columns{
       {{"equivalent_plastic_strain", "-", "accumulated"},
        {"plastic_volume_strain", "-", "positive where the pores open"},
-       {"cohesion", "Pa", "c of the place", ColumnKind::of_place}}};
+       {"cohesion", "Pa", "c of the place", ColumnKind::of_place},
+       {"stiffness", "-", "factor of both moduli, of the place", ColumnKind::of_place}}};
 
     template <typename Number>
     struct History
@@ -40,12 +42,13 @@ namespace kedge
       Number equivalent_plastic_strain = 0.; ///< sqrt(2/3) of all |dev d eps^p| [-]
       Number plastic_volume_strain     = 0.; ///< positive where the pores open [-]
       Number cohesion                  = 0.; ///< c [Pa]
+      Number stiffness                 = 1.; ///< of both moduli [-]
     };
 
-    static std::array<const SpatialConstant *, 3>
+    static std::array<const SpatialConstant *, 4>
     constants(const MaterialParameters &parameters)
     {
-      return {{nullptr, nullptr, &parameters.cohesion}};
+      return {{nullptr, nullptr, &parameters.cohesion, &parameters.stiffness_factor}};
     }
 
     explicit MohrCoulomb(const MaterialParameters &parameters)
@@ -106,7 +109,8 @@ namespace kedge
       return {history.equivalent_plastic_strain + equivalent_increment(response),
               history.plastic_volume_strain + response.plastic_strain[0] +
                 response.plastic_strain[1] + response.plastic_strain[2],
-              history.cohesion};
+              history.cohesion,
+              history.stiffness};
     }
 
     const double sin_friction, cos_friction, sin_dilation;

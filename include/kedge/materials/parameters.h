@@ -95,14 +95,17 @@ namespace kedge
     double          remoulded_strength  = 1.;  ///< d, over the intact one [-]
     double          softening_strain    = 10.; ///< xi_95 [-]
     double          softening_cell_size = 0.;  ///< for which it holds [m]; 0: on every grid
+    double          rate_coefficient    = 0.;  ///< mu, growth of s_u per decade of rate [-]
+    double          reference_rate      = 1.;  ///< up to which s_u is that given [1/s]
 
     // drucker_prager, mohr_coulomb
-    SpatialConstant cohesion;             ///< c [Pa]
-    double          friction_angle  = 0.; ///< phi [deg]
-    double          dilation_angle  = 0.; ///< psi [deg]
-    ConeMatch       cone_match      = ConeMatch::plane_strain;
-    double          apex_rounding   = 0.; ///< e/k of drucker_prager [-]
-    double          tension_cut_off = 1.; ///< of the apex [-]
+    SpatialConstant cohesion;              ///< c [Pa]
+    SpatialConstant stiffness_factor = 1.; ///< of both moduli [-]
+    double          friction_angle   = 0.; ///< phi [deg]
+    double          dilation_angle   = 0.; ///< psi [deg]
+    ConeMatch       cone_match       = ConeMatch::plane_strain;
+    double          apex_rounding    = 0.; ///< e/k of drucker_prager [-]
+    double          tension_cut_off  = 1.; ///< of the apex [-]
 
     // modified_cam_clay
     double          swelling_slope       = 0.;       ///< kappa, by the void ratio [-]
@@ -110,7 +113,8 @@ namespace kedge
     double          initial_void_ratio   = 0.;       ///< e_0 [-]
     double          critical_state_ratio = 0.;       ///< M = q/p' at the critical state [-]
     double          reference_pressure   = 0.;       ///< p_r [Pa]
-    SpatialConstant start_preconsolidation_pressure; ///< p_c at the start [Pa]
+    SpatialConstant start_preconsolidation_pressure; ///< p_c at the start [Pa], or its ratio
+    bool preconsolidation_by_ratio = false; ///< to that of the surface through the initial stress
 
     // critical_state, critical_state_improved
     double       preconsolidation_pressure = 0; ///< p_c, of the Kirchhoff stress [Pa]

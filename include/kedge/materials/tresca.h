@@ -17,13 +17,14 @@ namespace kedge
    *   tau_2 = tau_3:    tau_1 - 2 G S, (tau_2 + tau_3)/2 + G S,
    *                     tau_1 - (tau_2 + tau_3)/2 - 3 G S = 2 s_u(xi + 2 S);
    *   tau_1 = tau_2:    the mirror image.
-   * dD = s_u d xi. The surface has edges: points are answered one by one.
+   * dD = s_u d xi.
    */
   class Tresca : public HenckyPlasticity<Tresca>
   {
   public:
-    static constexpr bool decoupled_volume = true;
-    static constexpr bool takes_packs      = false;
+    static constexpr bool decoupled_volume   = true;
+    static constexpr bool stiffness_of_place = false;
+    static constexpr bool takes_packs        = true;
 
     static constexpr auto columns = UndrainedStrength::columns;
     template <typename Number>
@@ -46,24 +47,34 @@ namespace kedge
                   const History<Number> &history,
                   Response<Number>      &response) const
     {
-      const auto   order = falling_order(trial);
-      const Number t1 = trial[order[0]], t2 = trial[order[1]], t3 = trial[order[2]];
-      const Number diameter = 2. * strength.strength(history, Number(0.));
-      if (!(t1 - t3 > diameter))
+      const FallingOrder<Number> order(trial);
+      const Number               t1 = order.value[0], t2 = order.value[1], t3 = order.value[2];
+      const Number               diameter = 2. * strength.strength(history, Number(0.));
+      const auto                 yields   = t1 - t3 > diameter;
+      if (!any(yields))
         return;
-      const double G = elastic.shear_modulus;
-      const Number on_face =
+      const double   G = elastic.shear_modulus;
+      Return<Number> at;
+      at.S =
         strength.multiplier(history, Number(t1 - t3 - diameter), 4. * G, 2., 2., response.valid);
-      const Number low = t3 + 2. * G * on_face, high = t1 - 2. * G * on_face;
-      if (t2 >= low && t2 <= high)
+      at.yields          = yields;
+      at.low_pair        = yields && t2 < t3 + 2. * G * at.S;
+      at.high_pair       = yields && !at.low_pair && t2 > t1 - 2. * G * at.S;
+      at.gap             = 0.;
+      const auto on_edge = at.low_pair || at.high_pair;
+      if (any(on_edge))
         {
-          const double direction[3] = {1., 0., -1.};
-          set_face(order, on_face, direction, history, response);
+          const Number distance = select(at.low_pair, t1 - 0.5 * (t2 + t3), 0.5 * (t1 + t2) - t3);
+          const Number S        = strength.multiplier(history,
+                                               select(on_edge, distance - diameter, Number(-1.)),
+                                               3. * G,
+                                               2.,
+                                               2.,
+                                               response.valid);
+          at.S                  = select(on_edge, S, at.S);
+          at.gap = select(at.low_pair, t2 - t3, select(at.high_pair, t1 - t2, Number(0.)));
         }
-      else if (t2 < low)
-        set_edge(order, 0, 1, 2, Number(t1 - 0.5 * (t2 + t3)), Number(t2 - t3), history, response);
-      else
-        set_edge(order, 2, 0, 1, Number(0.5 * (t1 + t2) - t3), Number(t1 - t2), history, response);
+      set_return(order, at, history, response);
     }
 
     template <typename Number>
@@ -72,71 +83,71 @@ namespace kedge
     {
       return {history.equivalent_plastic_strain + equivalent_increment(response),
               history.plastic_shear_strain + response.softening_strain,
-              history.undrained_strength};
+              history.undrained_strength,
+              history.time_step};
     }
 
     const UndrainedStrength strength;
 
   private:
     template <typename Number>
-    void
-    set_face(const std::array<int, 3> &order,
-             const Number             &S,
-             const double (&direction)[3],
-             const History<Number> &history,
-             Response<Number>      &response) const
+    struct Return
     {
-      const double G            = elastic.shear_modulus;
-      response.softening_strain = 2. * S;
-      const Number fall         = 4. * G + 4. * strength.slope(history, response.softening_strain);
-      for (int i = 0; i < 3; ++i)
-        {
-          response.plastic_strain[order[i]] = direction[i] * S;
-          for (int j = 0; j < 3; ++j)
-            response.tangent[order[i]][order[j]] -= 4. * G * G * direction[i] * direction[j] / fall;
-        }
-    }
+      Number            S;   ///< sum of the multipliers
+      Number            gap; ///< by which the two differ in the trial that become equal [Pa]
+      Condition<Number> yields;
+      Condition<Number> low_pair;  ///< tau_2 = tau_3
+      Condition<Number> high_pair; ///< tau_1 = tau_2
+    };
 
-    /**
-     * @p single is the rank of the principal stress off the edge, @p high and @p low
-     * those of the two that become equal, which differ by @p gap in the trial.
-     * @p distance is from the single one to their mean, positive.
+    /** On an edge the stress off it falls by 2 G S, and each of the two meets it by half of that.
      */
     template <typename Number>
     void
-    set_edge(const std::array<int, 3> &order,
-             const int                 single,
-             const int                 high,
-             const int                 low,
-             const Number             &distance,
-             const Number             &gap,
-             const History<Number>    &history,
-             Response<Number>         &response) const
+    set_return(const FallingOrder<Number> &order,
+               const Return<Number>       &at,
+               const History<Number>      &history,
+               Response<Number>           &response) const
     {
-      const double G        = elastic.shear_modulus;
-      const double sign     = single == 0 ? 1. : -1.;
-      const Number diameter = 2. * strength.strength(history, Number(0.));
-      const Number S =
-        strength.multiplier(history, Number(distance - diameter), 3. * G, 2., 2., response.valid);
-      response.softening_strain = 2. * S;
-      const Number fall         = 3. * G + 4. * strength.slope(history, response.softening_strain);
+      const double G            = elastic.shear_modulus;
+      const auto   on_edge      = at.low_pair || at.high_pair;
+      response.softening_strain = 2. * at.S;
+      const Number fall         = select(on_edge, Number(3. * G), Number(4. * G)) +
+                          4. * strength.slope(history, response.softening_strain);
 
-      response.plastic_strain[order[single]] = sign * S;
-      response.plastic_strain[order[high]]   = 0.5 * (-sign * S + gap / (2. * G));
-      response.plastic_strain[order[low]]    = 0.5 * (-sign * S - gap / (2. * G));
+      const Number half_gap = at.gap / (4. * G);
+      // d eps^p_i = S times these, and what makes the pair equal
+      const Number direction[3] = {select(at.high_pair, Number(0.5), Number(1.)),
+                                   select(at.low_pair,
+                                          Number(-0.5),
+                                          select(at.high_pair, Number(0.5), Number(0.))),
+                                   select(at.low_pair, Number(-0.5), Number(-1.))};
+      Number       plastic[3], tangent[3][3];
+      for (int i = 0; i < 3; ++i)
+        plastic[i] = direction[i] * at.S;
+      plastic[0] += select(at.high_pair, half_gap, Number(0.));
+      plastic[1] += select(at.low_pair, half_gap, select(at.high_pair, -half_gap, Number(0.)));
+      plastic[2] -= select(at.low_pair, half_gap, Number(0.));
 
-      // d tau_single = K tr + 2 G de_single - 2 G sign dS, the others K tr - G de_single + G sign
-      // dS
-      double direction[3];
-      direction[single] = 1.;
-      direction[high] = direction[low] = -0.5;
+      const Number softened =
+        select(at.yields, 4. * G * G / select(at.yields, fall, Number(1.)), Number(0.));
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           {
-            const double deviator = direction[j] * 2. / 3.; // of de_single by eps_j
-            response.tangent[order[i]][order[j]] =
-              bulk_modulus + direction[i] * 2. * G * (deviator - 2. * G * direction[j] / fall);
+            // the whole deviator's stiffness, or on an edge what is left of it along the edge
+            const Number whole = 2. * G * ((i == j ? 1. : 0.) - 1. / 3.);
+            const Number along = 4. / 3. * G * direction[i] * direction[j];
+            tangent[i][j] =
+              bulk_modulus + select(on_edge, along, whole) - softened * direction[i] * direction[j];
           }
+      order.restore(plastic);
+      order.restore(tangent);
+      for (int i = 0; i < 3; ++i)
+        {
+          response.plastic_strain[i] = plastic[i];
+          for (int j = 0; j < 3; ++j)
+            response.tangent[i][j] = tangent[i][j];
+        }
     }
   };
 } // namespace kedge

@@ -16,8 +16,9 @@ namespace kedge
   class UndrainedVonMises : public HenckyPlasticity<UndrainedVonMises>
   {
   public:
-    static constexpr bool decoupled_volume = true;
-    static constexpr bool takes_packs      = true;
+    static constexpr bool decoupled_volume   = true;
+    static constexpr bool stiffness_of_place = false;
+    static constexpr bool takes_packs        = true;
 
     static constexpr auto columns = UndrainedStrength::columns;
     template <typename Number>
@@ -79,7 +80,8 @@ namespace kedge
     {
       return {history.equivalent_plastic_strain + equivalent_increment(response),
               history.plastic_shear_strain + response.softening_strain,
-              history.undrained_strength};
+              history.undrained_strength,
+              history.time_step};
     }
 
     const UndrainedStrength strength;

@@ -10,6 +10,11 @@ namespace kedge
   SectionDeclaration
   declare_pore_fluid(const ValuePatterns<dim> &allow);
 
+  /** The section Time. */
+  template <int dim>
+  SectionDeclaration
+  declare_time(const ValuePatterns<dim> &allow);
+
   /** The sections of the method, which a user seldom needs: Newton to Stabilisation. */
   template <int dim>
   std::vector<SectionDeclaration>

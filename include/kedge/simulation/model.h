@@ -46,6 +46,13 @@ namespace kedge
       return generated;
     }
 
+    /** What create_points() has to say of initial stresses beyond the yield surface. */
+    const std::vector<std::string> &
+    initial_stress_notes() const
+    {
+      return stress_notes;
+    }
+
     /** Frees what only the start-up needs. */
     void
     forget_generated_points();
@@ -102,6 +109,7 @@ namespace kedge
     check_overlaps() const;
 
     std::vector<PointOrigin<dim>>         generated;
+    std::vector<std::string>              stress_notes;
     std::vector<const SurfaceTerm<dim> *> surface_terms; ///< come first
     std::size_t n_field_terms = 0;                       ///< of single fields; others come behind
   };

@@ -5,6 +5,7 @@
 #include <kedge/io/run_folder.h>
 #include <kedge/io/signals.h>
 #include <kedge/io/summary.h>
+#include <kedge/simulation/limit_watch.h>
 #include <kedge/simulation/run_log.h>
 #include <kedge/simulation/run_options.h>
 #include <kedge/simulation/run_output.h>
@@ -85,6 +86,13 @@ namespace kedge
     watch_supports();
     bool
     reject_step(const StepReport &report);
+    /** How far the points have moved, of a quasi-static run. */
+    void
+    watch_limit();
+    /** Ends a run whose load has no equilibrium: what says that it is a limit load, if it is one.
+     */
+    RunEnd
+    end_without_equilibrium(const StepReport &report);
     void
     write_checkpoint_if_due();
     RunEnd
@@ -113,6 +121,7 @@ namespace kedge
     CheckpointStore<dim>            checkpoints;
     RunLog                          log;
     SupportWatch<dim>               supports;
+    LimitWatch                      limit;
     double                          last_checkpoint_wall = 0.;
     std::uint64_t                   last_checkpoint_step = 0;
   };

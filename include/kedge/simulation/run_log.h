@@ -40,6 +40,10 @@ namespace kedge
     void
     say_loads(const double time);
 
+    /** The same as a text, "Body force 0.87"; empty if no load changes. */
+    std::string
+    factors(const double time) const;
+
     /** Which loads between two times are no finite numbers; empty if all are. */
     std::string
     bad_loads(const double begin, const double end) const;

@@ -65,6 +65,14 @@ namespace kedge
     void
     accept(const PointUpdate<3> &update);
 
+    /** How long the next steps are, for laws that depend on the rate [s]; 0, as at the start: they
+     * are slow. */
+    void
+    set_time_step(const double dt)
+    {
+      time_step = dt;
+    }
+
     /** evaluate() and, if it can be done, accept(). */
     bool
     deform_to(const dealii::Tensor<2, 3> &F);
@@ -82,6 +90,7 @@ namespace kedge
   private:
     Material material;
     State    present;
+    double   time_step = 0.; ///< [s]
   };
 
   /** The deformation gradient of a path as a function of time. */

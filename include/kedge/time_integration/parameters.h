@@ -44,11 +44,12 @@ namespace kedge
     bool                adapt_step          = false;     ///< to the work of Newton's method
     double              maximum_step_factor = 1;         ///< if adapt_step: times the nominal step
     std::vector<double> break_times;                     ///< times that a step must end at [s]
-    double              newmark_beta       = 0.25;
-    double              newmark_gamma      = 0.5;
-    double              spectral_radius    = 0.818; ///< rho_infinity of generalised-alpha
-    bool                carry_acceleration = true;  ///< false: the thesis's printed a_n = 0
-    double              pore_theta         = 0.5;   ///< PoreScheme::theta of the mid-point scheme
+    double failure_displacement = 0; ///< at which a load has been too large [m]; 0: none
+    double newmark_beta         = 0.25;
+    double newmark_gamma        = 0.5;
+    double spectral_radius      = 0.818; ///< rho_infinity of generalised-alpha
+    bool   carry_acceleration   = true;  ///< false: the thesis's printed a_n = 0
+    double pore_theta           = 0.5;   ///< PoreScheme::theta of the mid-point scheme
   };
 } // namespace kedge
 

@@ -1,0 +1,51 @@
+# Soil laws: element tests, limit loads, initial states. scenes.cmake says how.
+
+# --- Element tests: high-order integrations, the same steps elsewhere --------------
+kedge_add_scene_test(path.clay_softening prm/paths/clay_softening.prm OPTIONS --drive)
+kedge_add_scene_test(path.clay_softening.von_mises prm/paths/clay_softening.prm OPTIONS --drive
+  SET "Materials/clay/Model = von_mises")
+kedge_add_scene_test(path.sand_plane_strain prm/paths/sand_plane_strain.prm OPTIONS --drive)
+kedge_add_scene_test(path.sand_plane_strain.no_dilation prm/paths/sand_plane_strain.prm
+  OPTIONS --drive SET "Constants/c = 5e3" "Constants/psi = 0")
+kedge_add_scene_test(path.sand_plane_strain.associated prm/paths/sand_plane_strain.prm
+  OPTIONS --drive SET "Constants/c = 5e3" "Constants/psi = 30")
+kedge_add_scene_test(path.cam_clay_undrained prm/paths/cam_clay_undrained.prm OPTIONS --drive)
+kedge_add_scene_test(path.cam_clay_undrained.overconsolidated prm/paths/cam_clay_undrained.prm
+  OPTIONS --drive SET "Constants/OCR = 1.5")
+kedge_add_scene_test(path.cam_clay_drained prm/paths/cam_clay_drained.prm OPTIONS --drive)
+kedge_add_scene_test(path.cam_clay_drained.overconsolidated prm/paths/cam_clay_drained.prm
+  OPTIONS --drive SET "Constants/OCR = 2")
+kedge_add_scene_test(path.mohr_coulomb_plane_strain prm/paths/mohr_coulomb_plane_strain.prm
+  OPTIONS --drive)
+
+# --- Element tests of soil, against integrations in other variables --------------
+kedge_add_scene_test(path.isotropic_compression prm/paths/isotropic_compression.prm)
+kedge_add_scene_test(path.oedometer prm/oedometer.prm)
+kedge_add_scene_test(path.triaxial prm/triaxial.prm)
+kedge_add_scene_test(path.triaxial.overconsolidated prm/triaxial.prm SET "Constants/p0 = 50e3")
+kedge_add_scene_test(path.triaxial_drained prm/paths/triaxial_drained.prm)
+kedge_add_scene_test(path.triaxial_drained.critical prm/paths/triaxial_drained.prm
+  SET "Constants/cell = 70e3")
+
+# --- Limit loads and initial states -------------------------------------------------
+kedge_add_scene_test(scene.cavity_cylinder prm/cavity_cylinder.prm)
+# limit loads: found as the answer, or where a run without one stops
+kedge_add_scene_test(scene.vertical_cut prm/vertical_cut.prm)
+kedge_add_scene_test(scene.vertical_cut.ranks prm/vertical_cut.prm SET "Constants/n = 4"
+  COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.vertical_cut.coarse prm/vertical_cut.prm SET "Constants/n = 8"
+  EXPECT_STDOUT "a limit load.*still growing at .* times as fast as in the first step")
+kedge_add_scene_test(scene.vertical_cut.stops prm/vertical_cut.prm SET "Constants/n = 8"
+  "Time/Failure displacement = " EXPECT_EXIT 2
+  EXPECT_STDOUT "no equilibrium beyond load factor Body force 0.[678].*still growing"
+  EXPECT_STDERR "^$")
+kedge_add_scene_test(scene.slope prm/slope.prm
+  SET "Constants/n = 5" "Strength reduction = 1.3")
+kedge_add_scene_test(scene.slope.fails prm/slope.prm SET "Constants/n = 5"
+  "Strength reduction = 1.7" EXPECT_EXIT 2 EXPECT_STDOUT "a limit load, no equilibrium beyond it"
+  EXPECT_STDERR "^$")
+# beyond the yield surface: returned, and said so
+kedge_add_scene_test(scene.initial_stress_returned prm/layer_at_rest.prm
+  SET "Materials/skeleton/Model = drucker_prager" "Materials/skeleton/Cohesion = 0"
+    "Materials/skeleton/Friction angle = 20" "Constants/K_0 = 0.2" OPTIONS --validate
+  EXPECT_STDOUT "Bodies/soil/Initial stress: [0-9]+ of [0-9]+ material points .* were returned to it")
