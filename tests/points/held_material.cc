@@ -65,7 +65,7 @@ namespace
       }
     MaterialPoints<2> cloud;
     cloud.distribute(grid, records);
-    const HeldMaterial<2> held({{where, {holds_body}}}, metre_cells());
+    HeldMaterial<2> held({{where, {holds_body}}}, metre_cells());
     return held.parts(cloud, MPI_COMM_SELF)[0];
   }
 } // namespace

@@ -62,14 +62,19 @@ namespace kedge
 
     /** The part of each condition, from 0 to 1; 1 if it held nothing at the start (collective). */
     std::vector<double>
-    parts(const MaterialPoints<dim> &cloud, const MPI_Comm communicator) const;
+    parts(const MaterialPoints<dim> &cloud, const MPI_Comm communicator);
 
   private:
     double
-    weight(const Condition &condition, const dealii::Point<dim> &x) const;
+    weight(const std::size_t condition, const dealii::Point<dim> &x);
+    bool
+    holds(const std::size_t condition, const LatticeIndex<dim> &node);
 
-    std::vector<Condition> conditions;
-    const Lattice<dim>     lattice;
+    std::vector<Condition>   conditions;
+    const Lattice<dim>       lattice;
+    const LatticeWindow<dim> all;
+    /** Per condition and node of the grid, where these are not too many: what is known of it. */
+    std::vector<std::vector<unsigned char>> known;
   };
 } // namespace kedge
 
