@@ -49,3 +49,14 @@ kedge_add_scene_test(scene.initial_stress_returned prm/layer_at_rest.prm
   SET "Materials/skeleton/Model = drucker_prager" "Materials/skeleton/Cohesion = 0"
     "Materials/skeleton/Friction angle = 20" "Constants/K_0 = 0.2" OPTIONS --validate
   EXPECT_STDOUT "Bodies/soil/Initial stress: [0-9]+ of [0-9]+ material points .* were returned to it")
+kedge_add_scene_test(scene.k0_layer prm/k0_layer.prm)
+kedge_add_scene_test(scene.k0_layer.ranks prm/k0_layer.prm RANKS 2)
+kedge_add_scene_test(scene.k0_layer.dense prm/k0_layer.prm
+  SET "Constants/RD = 0.82" "Constants/yw = 8.3" "Constants/h = 0.5")
+# the scene can fail: with less horizontal stress the layer yields and sinks
+kedge_add_scene_test(scene.k0_layer.returned prm/k0_layer.prm SET "Constants/K0 = 0.2"
+  EXPECT_EXIT 2 EXPECT_STDOUT "80 of 80 material points .100 .. began beyond the yield surface"
+  EXPECT_STDERR "^$")
+kedge_add_scene_test(scene.strip_su_depth prm/strip_su_depth.prm)
+kedge_add_scene_test(scene.strip_su_depth.von_mises prm/strip_su_depth.prm
+  SET "Materials/clay/Model = von_mises")

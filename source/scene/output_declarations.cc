@@ -29,7 +29,7 @@ namespace kedge
                        "det_F, half_lengths, kirchhoff_stress, cauchy_stress, pressure, "
                        "von_mises_stress, strain_energy, kinetic_energy, mass, volume, body, "
                        "id, equivalent_plastic_strain, yield_stress, plastic_volume_strain, "
-                       "plastic_shear_strain, undrained_strength, cohesion, "
+                       "plastic_shear_strain, undrained_strength, cohesion, stiffness, "
                        "preconsolidation_pressure, plastic_dissipation, pore_pressure, "
                        "porosity, darcy_velocity, total_stress"))
           .or_empty(),

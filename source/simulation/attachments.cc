@@ -144,7 +144,7 @@ namespace kedge
     describe_regions(const Model<dim> &model, std::ostream &out)
     {
       const Lattice<dim> &lattice = model.points.grid().lattice();
-      const auto          nodes   = nodes_of_cells_with_points<dim>(lattice, model.generated_points());
+      const auto nodes = nodes_of_cells_with_points<dim>(lattice, model.generated_points());
       for (const auto &condition : model.scene.node_conditions)
         {
           const NodeRegion<dim> region(condition, model.scene.constants);

@@ -318,17 +318,17 @@ namespace kedge
   RunEnd
   Run<dim>::end_without_equilibrium(const StepReport &report)
   {
-    const std::string bad    = log.bad_loads(clock.time(), clock.next_time());
-    const std::string cause  = report.cause + (bad.empty() ? "" : "; " + bad);
-    const bool        is_one = bad.empty() && !report.hopeless && limit.runs_away();
+    const std::string bad   = log.bad_loads(clock.time(), clock.next_time());
+    const std::string cause = report.cause + (bad.empty() ? "" : "; " + bad);
+    const std::string load  = log.load_factors(clock.time());
+    // what moves by given displacements has no limit load, however fast it moves
+    const bool is_one = bad.empty() && !report.hopeless && limit.runs_away() && !load.empty();
     if (is_one && model.scene.time.failure_displacement > 0.)
       return finish("finished", "a limit load, no equilibrium beyond it: " + limit.growth());
     const std::string growth = model.scheme.dynamic || !bad.empty() ? "" : limit.growth();
-    const std::string load   = log.factors(clock.time());
     if (is_one)
       return finish("numerical_stop",
-                    "no equilibrium beyond " +
-                      (load.empty() ? "this load" : "load factor " + load) + ": " + growth +
+                    "no equilibrium beyond load factor " + load + ": " + growth +
                       "; a limit load (to find it without a stop: Time/Failure displacement); " +
                       cause);
     return finish("numerical_stop", cause + (growth.empty() ? "" : "; " + growth));

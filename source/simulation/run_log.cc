@@ -72,7 +72,7 @@ namespace kedge
   void
   RunLog::say_loads(const double time)
   {
-    const std::string reached = factors(time);
+    const std::string reached = loads.factors_at(time, end);
     if (!reached.empty())
       folder.log() << "  loads and supports reached, as parts of those at Time/End: " << reached
                    << std::endl;
@@ -81,9 +81,9 @@ namespace kedge
 
 
   std::string
-  RunLog::factors(const double time) const
+  RunLog::load_factors(const double time) const
   {
-    return loads.factors_at(time, end);
+    return loads.factors_at(time, end, false);
   }
 
 

@@ -30,17 +30,18 @@ namespace kedge
         for (const auto &component : condition.components)
           if (component.kind == ConditionKind::displacement)
             displacements.push_back(component.expression);
-        add("Node conditions/" + condition.name, displacements, scene.constants);
+        add("Node conditions/" + condition.name, displacements, scene.constants, true);
       }
     for (const auto &condition : scene.body_conditions)
       {
-        std::vector<std::string> expressions;
+        std::vector<std::string> forces, motions;
         for (const auto &line : condition.lines)
           if (!line.force.empty())
-            expressions.push_back(line.force);
+            forces.push_back(line.force);
           else if (line.motion.kind == ConditionKind::displacement)
-            expressions.push_back(line.motion.expression);
-        add("Body conditions/" + condition.name, expressions, scene.constants);
+            motions.push_back(line.motion.expression);
+        add("Body conditions/" + condition.name, forces, scene.constants);
+        add("Body conditions/" + condition.name, motions, scene.constants, true);
       }
   }
 
@@ -49,9 +50,10 @@ namespace kedge
   void
   SceneLoads::add(const std::string                   &name,
                   const std::vector<std::string>      &texts,
-                  const std::map<std::string, double> &constants)
+                  const std::map<std::string, double> &constants,
+                  const bool                           is_support)
   {
-    Load load{name, {}};
+    Load load{name, {}, is_support};
     try
       {
         for (const std::string &text : texts)
@@ -81,12 +83,14 @@ namespace kedge
 
 
   std::string
-  SceneLoads::factors_at(const double t, const double end) const
+  SceneLoads::factors_at(const double t, const double end, const bool with_supports) const
   {
     std::ostringstream result;
     result.precision(4);
     for (const Load &load : loads)
       {
+        if (load.is_support && !with_supports)
+          continue;
         double product = 0., square = 0.;
         bool   changes = false;
         for (const Expression &component : load.components)

@@ -40,9 +40,9 @@ namespace kedge
     void
     say_loads(const double time);
 
-    /** The same as a text, "Body force 0.87"; empty if no load changes. */
+    /** The loads alone as a text, "Body force 0.87"; empty if none changes. */
     std::string
-    factors(const double time) const;
+    load_factors(const double time) const;
 
     /** Which loads between two times are no finite numbers; empty if all are. */
     std::string

@@ -25,22 +25,25 @@ namespace kedge
 
     /**
      * How large those that change with time are at @p t, as a part of what they are at
-     * @p end: "Tractions/lid 0.83, Body force 0.5". Empty if nothing changes.
+     * @p end: "Tractions/lid 0.83, Body force 0.5", with or without displacements of supports.
+     * Empty if nothing changes.
      */
     std::string
-    factors_at(const double t, const double end) const;
+    factors_at(const double t, const double end, const bool with_supports = true) const;
 
   private:
     struct Load
     {
       std::string             name;
       std::vector<Expression> components;
+      bool                    is_support; ///< a displacement that is given, no load
     };
 
     void
     add(const std::string                   &name,
         const std::vector<std::string>      &texts,
-        const std::map<std::string, double> &constants);
+        const std::map<std::string, double> &constants,
+        const bool                           is_support = false);
 
     std::vector<Load> loads;
   };
