@@ -60,3 +60,4 @@ kedge_add_scene_test(scene.k0_layer.returned prm/k0_layer.prm SET "Constants/K0 
 kedge_add_scene_test(scene.strip_su_depth prm/strip_su_depth.prm)
 kedge_add_scene_test(scene.strip_su_depth.von_mises prm/strip_su_depth.prm
   SET "Materials/clay/Model = von_mises")
+kedge_add_scene_test(scene.strip_friction prm/strip_friction.prm)
