@@ -29,6 +29,7 @@ kedge_add_scene_test(path.triaxial_drained.critical prm/paths/triaxial_drained.p
 
 # --- Limit loads and initial states -------------------------------------------------
 kedge_add_scene_test(scene.cavity_cylinder prm/cavity_cylinder.prm)
+kedge_add_scene_test(scene.cavity_sphere prm/cavity_sphere.prm TIMEOUT 200)
 # limit loads: found as the answer, or where a run without one stops
 kedge_add_scene_test(scene.vertical_cut prm/vertical_cut.prm)
 kedge_add_scene_test(scene.vertical_cut.ranks prm/vertical_cut.prm SET "Constants/n = 4"
