@@ -5,6 +5,25 @@
 
 namespace kedge
 {
+  ContactLaw
+  contact_law_of(const ContactParameters &parameters,
+                 const double             normal_stiffness,
+                 const double             tangent_stiffness,
+                 const Scheme            &scheme)
+  {
+    ContactLaw law;
+    law.normal_stiffness  = normal_stiffness;
+    law.tangent_stiffness = tangent_stiffness;
+    law.friction          = parameters.friction;
+    law.adhesion          = parameters.adhesion;
+    law.alpha             = scheme.contact_alpha();
+    law.conserving        = scheme.conserves_contact();
+    law.at_rest           = !scheme.dynamic;
+    return law;
+  }
+
+
+
   ContactPressure
   contact_pressure(const ContactLaw &law,
                    const double      gap_n,
@@ -37,11 +56,17 @@ namespace kedge
 
 
 
+  template <int dim>
   double
-  stored_in_gap(const ContactLaw &law, const double gap, const double multiplier)
+  stored_in_contact(const ContactLaw             &law,
+                    const double                  gap,
+                    const double                  multiplier,
+                    const dealii::Tensor<1, dim> &slip)
   {
-    const double a = std::max(multiplier - law.normal_stiffness * gap, 0.);
-    return 0.5 * a * a / law.normal_stiffness;
+    const double pressure =
+      std::max((law.at_rest ? 0. : multiplier) - law.normal_stiffness * gap, 0.);
+    const double in_gap = 0.5 * pressure * pressure / law.normal_stiffness;
+    return law.at_rest ? in_gap : in_gap + 0.5 * law.tangent_stiffness * slip.norm_square();
   }
 
 
@@ -164,6 +189,10 @@ namespace kedge
                    const dealii::Tensor<1, 3> &,
                    const double,
                    const dealii::Tensor<1, 3> &);
+  template double
+  stored_in_contact(const ContactLaw &, const double, const double, const dealii::Tensor<1, 2> &);
+  template double
+  stored_in_contact(const ContactLaw &, const double, const double, const dealii::Tensor<1, 3> &);
   template double
   violation(const ContactLaw &,
             const double,

@@ -11,19 +11,14 @@ namespace kedge
                                 const Scheme                          &scheme,
                                 const double                           cell_size)
     : parameters(parameters)
-    , scheme(scheme)
     , cell_size(cell_size)
-    , alpha(scheme.dynamic ? scheme.alpha_f : 1.)
+    , alpha(scheme.contact_alpha())
+    , at_rest(!scheme.dynamic)
   {
     for (const ContactBodies<dim> &pair : bodies)
       {
-        ContactLaw law;
-        law.normal_stiffness  = pair.normal_stiffness;
-        law.tangent_stiffness = pair.tangent_stiffness;
-        law.friction          = parameters.friction;
-        law.adhesion          = parameters.adhesion;
-        law.alpha             = alpha;
-        law.conserving        = scheme.dynamic && !scheme.carries_acceleration && alpha == 0.5;
+        const ContactLaw law =
+          contact_law_of(parameters, pair.normal_stiffness, pair.tangent_stiffness, scheme);
         const auto &first = moving(*pair.first), &second = moving(*pair.second);
         for (const bool swapped : {false, true})
           passes.emplace_back(swapped ? second : first,
@@ -93,7 +88,7 @@ namespace kedge
     for (auto &surface : surfaces)
       {
         std::vector<dealii::Tensor<1, dim>> predicted(surface->surface.n_vertices());
-        if (scheme.dynamic)
+        if (!at_rest)
           surface->surface.interpolate(trial.motion[surface->surface.field].velocity_n, predicted);
         for (auto &u : predicted)
           u *= trial.times.dt;
@@ -152,7 +147,7 @@ namespace kedge
       return {};
     move_surfaces(trial);
     // at rest nothing is predicted, and bodies that are barely held must not be pushed about
-    if (scheme.dynamic && n_follows < std::min(n_tangents, most_follows))
+    if (!at_rest && n_follows < std::min(n_tangents, most_follows))
       {
         n_follows = n_tangents;
         for (auto &half : passes)
@@ -194,7 +189,7 @@ namespace kedge
       return;
     move_surfaces(trial);
     CouplingSum<dim> sum;
-    const bool       to_be_held = !scheme.dynamic && !presses();
+    const bool       to_be_held = at_rest && !presses();
     for (const auto &half : passes)
       for (const auto &sample : half.samples())
         {
@@ -313,7 +308,7 @@ namespace kedge
         ++n_passes;
         again = true;
       }
-    if (!scheme.dynamic)
+    if (at_rest)
       again = update_multipliers() || again;
     return again;
   }
@@ -454,7 +449,7 @@ namespace kedge
   ContactTerm<dim>::restore(const SavedState &state)
   {
     for (std::size_t k = 0; k < passes.size(); ++k)
-      passes[k].restore(state.at(name() + " " + std::to_string(k)), scheme.dynamic);
+      passes[k].restore(state.at(name() + " " + std::to_string(k)), !at_rest);
   }
 
   template class ContactTerm<2>;

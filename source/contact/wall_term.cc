@@ -14,20 +14,16 @@ namespace kedge
                           const double                      cell_size)
     : parameters(parameters)
     , plane(plane)
-    , scheme(scheme)
     , cell_size(cell_size)
-    , alpha(scheme.dynamic ? scheme.alpha_f : 1.)
+    , alpha(scheme.contact_alpha())
+    , at_rest(!scheme.dynamic)
   {
     for (const WallBody<dim> &body : bodies)
       {
         Side side;
-        side.surface               = body.surface;
-        side.law.normal_stiffness  = body.normal_stiffness;
-        side.law.tangent_stiffness = body.tangent_stiffness;
-        side.law.friction          = parameters.friction;
-        side.law.adhesion          = parameters.adhesion;
-        side.law.alpha             = alpha;
-        side.law.conserving        = scheme.dynamic && !scheme.carries_acceleration && alpha == 0.5;
+        side.surface = body.surface;
+        side.law =
+          contact_law_of(parameters, body.normal_stiffness, body.tangent_stiffness, scheme);
         sides.push_back(side);
       }
   }
@@ -186,7 +182,7 @@ namespace kedge
   {
     move(trial);
     CouplingSum<dim> sum;
-    const bool       to_be_held = !scheme.dynamic && !presses();
+    const bool       to_be_held = at_rest && !presses();
     for (const Side &side : sides)
       for (const Sample &sample : side.samples)
         {
@@ -215,7 +211,7 @@ namespace kedge
   bool
   WallTerm<dim>::refresh(const Trial<dim> &trial)
   {
-    if (scheme.dynamic || n_updates == most_updates)
+    if (!at_rest || n_updates == most_updates)
       return false;
     move(trial);
     std::vector<std::vector<ContactResponse<dim>>> responses;
@@ -364,8 +360,7 @@ namespace kedge
   double
   WallTerm<dim>::stored(const ContactLaw &law, const Closed &closed)
   {
-    return stored_in_gap(law, closed.gap, closed.multiplier) +
-           0.5 * law.tangent_stiffness * closed.slip.norm_square();
+    return stored_in_contact(law, closed.gap, closed.multiplier, closed.slip);
   }
 
 
@@ -415,7 +410,7 @@ namespace kedge
             Closed closed{next[1], next[2], {}};
             for (int d = 0; d < dim; ++d)
               closed.slip[d] = next[3 + d];
-            if (scheme.dynamic) // multipliers of a state of rest become gaps that press as hard
+            if (!at_rest) // multipliers of a state of rest become gaps that press as hard
               {
                 closed.gap -= closed.multiplier / side.law.normal_stiffness;
                 closed.multiplier = 0.;

@@ -391,7 +391,7 @@ namespace kedge
           }
       }
     const NodalLaw law =
-      nodal_law_of(contact, moduli, points.grid().lattice(), scheme.dynamic ? scheme.alpha_f : 1.);
+      nodal_law_of(contact, moduli, points.grid().lattice(), scheme.contact_alpha());
     for (const unsigned int a : fields_of[0])
       for (const unsigned int b : fields_of[1])
         add_nodal_contact(contact,

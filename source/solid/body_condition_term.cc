@@ -190,7 +190,8 @@ namespace kedge
     const double t = times.t_n, dt = times.dt;
     const double result =
       line.by_force ? 0. : prescribed_increment(line.kind, line.motion, x.coordinates, t, t + dt);
-    if (!scheme.dynamic)
+    const double catching_up = scheme.catching_up(dt);
+    if (catching_up == 0.)
       return result;
     double off =
       line.by_force ? 0. : -prescribed_velocity(line.kind, line.motion, x.coordinates, t, dt);
@@ -198,7 +199,7 @@ namespace kedge
       for (int d = 0; d < dim && N != 0.; ++d)
         off += N * line.direction[d] * motion.velocity_n[std::size_t(node) * dim + d];
     });
-    return result + times.dt * (1. - scheme.beta / scheme.gamma) * off;
+    return result + catching_up * off;
   }
 
 

@@ -71,13 +71,11 @@ TYPED_TEST(ContactLawTest, WorkIsWhatIsStoredLessWhatIsDissipated)
       const State<dim>           s(seed);
       const ContactResponse<dim> r = respond(law, s, s.D);
       const auto stored            = [&](const double gap, const dealii::Tensor<1, dim> &slip) {
-        return stored_in_gap(law, gap, s.multiplier) +
-               0.5 * law.tangent_stiffness * slip.norm_square();
+        return stored_in_contact(law, gap, s.multiplier, slip);
       };
       // p (g_1 - g_0) = -(W_1 - W_0), and the same of the slip: numbers of order one, to round-off
       EXPECT_NEAR(r.pressure * (r.gap_end - s.gap),
-                  stored_in_gap(law, s.gap, s.multiplier) -
-                    stored_in_gap(law, r.gap_end, s.multiplier),
+                  stored(s.gap, {}) - stored(r.gap_end, {}),
                   1e-14);
       EXPECT_NEAR(-(r.traction * s.D),
                   stored(r.gap_end, r.slip_end) - stored(s.gap, s.slip) + r.dissipation,
@@ -98,6 +96,19 @@ TYPED_TEST(ContactLawTest, WorkIsWhatIsStoredLessWhatIsDissipated)
     }
   for (const unsigned int n : {n_open, n_closing, n_opening, n_sliding, n_sticking})
     EXPECT_GT(n, 10u); // all branches were there
+}
+
+TYPED_TEST(ContactLawTest, MultipliersOfAStateOfRestStoreNothing)
+{
+  constexpr int dim = TypeParam::value;
+  ContactLaw    law = some_law(false);
+  law.at_rest       = true;
+  dealii::Tensor<1, dim> slip;
+  slip[0] = 0.3;
+  // forces of constraint do no work, whatever they are; a gap that is left is a spring's
+  EXPECT_EQ(stored_in_contact(law, 0., 0.4, slip), 0.);
+  EXPECT_EQ(stored_in_contact(law, 0.1, 0.4, slip), 0.);
+  EXPECT_DOUBLE_EQ(stored_in_contact(law, -0.1, 0.4, slip), 0.5 * law.normal_stiffness * 0.01);
 }
 
 TYPED_TEST(ContactLawTest, SlopeIsThatOfTheTraction)

@@ -1,6 +1,9 @@
 #ifndef kedge_contact_contact_law_h
 #define kedge_contact_contact_law_h
 
+#include <kedge/contact/parameters.h>
+#include <kedge/time_integration/scheme.h>
+
 #include <deal.II/base/tensor.h>
 
 namespace kedge
@@ -17,7 +20,16 @@ namespace kedge
     double alpha = 0.5;
     /** Whether the pressure is the discrete gradient of the energy; if not, that at alpha. */
     bool conserving = true;
+    /** States of rest: multipliers hold the gaps, and what sticks, and store nothing. */
+    bool at_rest = false;
   };
+
+  /** The law of a section of Contact, with the stiffnesses of a pair of surfaces [Pa/m]. */
+  ContactLaw
+  contact_law_of(const ContactParameters &parameters,
+                 const double             normal_stiffness,
+                 const double             tangent_stiffness,
+                 const Scheme            &scheme);
 
   /** The pressure between two surfaces in a step, and what it depends on. */
   struct ContactPressure
@@ -38,9 +50,17 @@ namespace kedge
                    const double      change,
                    const double      multiplier);
 
-  /** W(g), stored in the closed gap [J/m^2]. */
+  /**
+   * Energy of a closed gap and of the elastic slip e beside it, W(g) + eps_t |e|^2 / 2 [J/m^2]. At
+   * rest the multiplier and the slip stand for forces of constraint, which do no work: what is
+   * stored is that of a gap that is not closed yet, eps <-g>^2 / 2.
+   */
+  template <int dim>
   double
-  stored_in_gap(const ContactLaw &law, const double gap, const double multiplier);
+  stored_in_contact(const ContactLaw             &law,
+                    const double                  gap,
+                    const double                  multiplier,
+                    const dealii::Tensor<1, dim> &slip);
 
   /** The answer of a pair of surfaces to a relative displacement over the step. */
   template <int dim>

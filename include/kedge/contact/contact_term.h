@@ -134,9 +134,9 @@ namespace kedge
     places_of_step(const double dt) const;
 
     const ContactParameters                          parameters;
-    const Scheme                                     scheme;
     const double                                     cell_size;
     const double                                     alpha; ///< part of the step of the balance
+    const bool                                       at_rest;
     std::vector<std::unique_ptr<MovingSurface<dim>>> surfaces;
     std::vector<SurfaceSamples<dim>> passes; ///< first on second, second on first ..
     std::vector<Memory>              end_of_step;

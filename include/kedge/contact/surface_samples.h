@@ -223,7 +223,7 @@ namespace kedge
     double
     energy(const double gap, const double multiplier, const dealii::Tensor<1, dim> &slip) const
     {
-      return stored_in_gap(law, gap, multiplier) + 0.5 * law.tangent_stiffness * slip.norm_square();
+      return stored_in_contact(law, gap, multiplier, slip);
     }
 
     const double                   share, reach, depth;

@@ -152,8 +152,8 @@ namespace kedge
 
     const ContactParameters        parameters;
     const WallPlane<dim>           plane;
-    const Scheme                   scheme;
     const double                   cell_size, alpha;
+    const bool                     at_rest;
     std::vector<Side>              sides;                    ///< one per body
     std::vector<ContactPlace<dim>> places, committed_places; ///< of the attempt, of the last step
     double            released  = 0.; ///< energy of samples that no longer look here [J]

@@ -58,6 +58,30 @@ namespace kedge
              dt * (1. - 0.5 * gamma / beta) * a_n;
     }
 
+    /** Part of the step at which surfaces in contact stand in balance; its end without inertia. */
+    double
+    contact_alpha() const
+    {
+      return dynamic ? alpha_f : 1.;
+    }
+
+    /** Whether contact can do as much work in a step as its energy loses, to round-off. */
+    bool
+    conserves_contact() const
+    {
+      return dynamic && !carries_acceleration && alpha_f == 0.5;
+    }
+
+    /**
+     * The time by which an error of the velocity at the start of a step is to be multiplied for
+     * the displacement that makes good for it by the end [s]; 0 without inertia.
+     */
+    double
+    catching_up(const double dt) const
+    {
+      return dynamic ? dt * (1. - beta / gamma) : 0.;
+    }
+
     /**
      * Time at which the external load of a step is evaluated: the middle for
      * schemes of mid-point type, t_n + alpha_f dt otherwise.
