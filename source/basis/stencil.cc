@@ -173,4 +173,5 @@ namespace kedge
                                      const dealii::Tensor<1, dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

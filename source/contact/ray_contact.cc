@@ -63,6 +63,7 @@ namespace kedge
         for (int d = 0; d < 3; ++d)
           normal[d] = along[0][(d + 1) % 3] * along[1][(d + 2) % 3] -
                       along[0][(d + 2) % 3] * along[1][(d + 1) % 3];
+      using std::sqrt; // not that of packs
       const Number size = sqrt(product<dim, Number>(normal, normal));
       for (int d = 0; d < dim; ++d)
         normal[d] = Number(place.outward) * normal[d] / size;
@@ -218,6 +219,7 @@ namespace kedge
       const Number square = product<dim, Number>(trial, trial);
       if (value_of(square) <= value_of(limit) * value_of(limit))
         return trial;
+      using std::sqrt; // not that of packs
       const Number scale = limit / sqrt(square);
       for (Number &component : trial)
         component = component * scale;
@@ -275,4 +277,5 @@ namespace kedge
   KEDGE_INSTANTIATE(3, double)
   KEDGE_INSTANTIATE(2, SlopedNumber<12>)
   KEDGE_INSTANTIATE(3, SlopedNumber<36>)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -326,4 +326,5 @@ namespace kedge
                                                  const int);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

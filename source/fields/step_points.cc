@@ -285,4 +285,5 @@ namespace kedge
   template StressState<dim> make_stress_state<dim>(const PointCore<dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -13,18 +13,18 @@ namespace kedge
   namespace
   {
     /** One term of a description and the sign in front of it. */
-    struct Term
+    struct SignedShape
     {
       char        sign = '+';
       std::string text;
     };
 
     /** Splits at the + and - outside all parentheses. */
-    std::vector<Term>
+    std::vector<SignedShape>
     split_terms(const std::string &description)
     {
-      std::vector<Term> terms(1);
-      int               depth = 0;
+      std::vector<SignedShape> terms(1);
+      int                      depth = 0;
       for (const char letter : description)
         {
           depth += (letter == '(') - (letter == ')');
@@ -37,7 +37,7 @@ namespace kedge
         }
       if (depth != 0)
         throw UserError("The geometry '" + description + "' leaves a parenthesis open.");
-      for (Term &term : terms)
+      for (SignedShape &term : terms)
         {
           term.text = dealii::Utilities::trim(term.text);
           if (term.text.empty())
@@ -226,7 +226,7 @@ namespace kedge
     if (dealii::Utilities::trim(description).empty())
       throw UserError("The geometry is empty; write for example box(0, 0; 1, 1).");
     Shape<dim> geometry;
-    for (const Term &term : split_terms(description))
+    for (const SignedShape &term : split_terms(description))
       {
         const auto shape = parse_term<dim>(term.text, constants, folder);
         if (!geometry)

@@ -343,4 +343,5 @@ namespace kedge
   KEDGE_INSTANTIATE(2, true)
   KEDGE_INSTANTIATE(3, false)
   KEDGE_INSTANTIATE(3, true)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

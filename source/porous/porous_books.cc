@@ -115,4 +115,5 @@ namespace kedge
   template void PorousTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &) const;
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -54,4 +54,5 @@ namespace kedge
                                  std::vector<double> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

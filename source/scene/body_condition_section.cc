@@ -156,4 +156,5 @@ namespace kedge
   template std::vector<BodyConditionParameters<dim>> read_body_conditions(const ParameterReader &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

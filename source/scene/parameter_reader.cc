@@ -9,9 +9,11 @@
 #include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
 #include <functional>
 #include <set>
+
 #include <sstream>
 
 namespace kedge
@@ -19,15 +21,6 @@ namespace kedge
   namespace
   {
     using Path = std::vector<std::string>;
-
-    std::string
-    join(const std::vector<std::string> &words)
-    {
-      std::string joined;
-      for (const std::string &word : words)
-        joined += (joined.empty() ? "" : ", ") + word;
-      return joined;
-    }
 
     std::vector<std::string>
     entry_names(const SectionDeclaration &section)
@@ -100,7 +93,8 @@ namespace kedge
             }
         });
       errors.throw_if_any();
-      throw UserError(place(entries.front()) + "Of the constants " + shortened(join(names)) +
+      throw UserError(place(entries.front()) + "Of the constants " +
+                      shortened(boost::algorithm::join(names, ", ")) +
                       " each needs another of them.");
     }
   } // namespace
@@ -230,7 +224,8 @@ namespace kedge
       else if (!candidate.name.empty())
         known.push_back(candidate.name);
     throw UserError(place + ": there is no section '" + shortened(section) + "'." +
-                    did_you_mean(section, known) + " Sections are " + join(known) + ".");
+                    did_you_mean(section, known) + " Sections are " +
+                    boost::algorithm::join(known, ", ") + ".");
   }
 
 
@@ -286,7 +281,7 @@ namespace kedge
     if (declared == nullptr)
       throw UserError(place + ": there is no entry " + shortened(name) + "." +
                       did_you_mean(entry.name, entry_names(section)) + " Entries here are " +
-                      join(entry_names(section)) + ".");
+                      boost::algorithm::join(entry_names(section), ", ") + ".");
 
     const std::string problem = declared->pattern.problem(entry.value);
     if (!problem.empty())

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <charconv>
 #include <cmath>
 #include <iomanip>
@@ -26,15 +28,6 @@ namespace kedge
       std::ostringstream out;
       out << number;
       return out.str();
-    }
-
-    std::string
-    join(const std::vector<std::string> &words, const std::string &separator)
-    {
-      std::string joined;
-      for (const std::string &word : words)
-        joined += (joined.empty() ? "" : separator) + word;
-      return joined;
     }
 
     /** Removes @p ending and the blanks before it; false if the text does not end so. */
@@ -195,7 +188,7 @@ namespace kedge
   parse_choice(const std::string &text, const std::vector<std::string> &choices)
   {
     if (std::find(choices.begin(), choices.end(), text) == choices.end())
-      throw UserError("It must be one of " + join(choices, ", ") + "." +
+      throw UserError("It must be one of " + boost::algorithm::join(choices, ", ") + "." +
                       did_you_mean(text, choices));
   }
 
@@ -225,7 +218,8 @@ namespace kedge
             return side;
           choices.push_back(names[side]);
         }
-    throw UserError("It must be one of " + join(choices, ", ") + "." + did_you_mean(text, choices));
+    throw UserError("It must be one of " + boost::algorithm::join(choices, ", ") + "." +
+                    did_you_mean(text, choices));
   }
 
 

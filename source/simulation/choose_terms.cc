@@ -441,4 +441,5 @@ namespace kedge
   template void                   Model<dim>::choose_contact_terms();
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -123,4 +123,5 @@ namespace kedge
   template void Run<dim>::resume();
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -262,4 +262,5 @@ namespace kedge
                                            NodeMatrix<dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -250,4 +250,5 @@ namespace kedge
     const std::vector<dealii::Tensor<2, dim>> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -91,4 +91,5 @@ namespace kedge
   template class SurfaceTractions<dim>;
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -19,7 +19,7 @@ namespace kedge
     using namespace dealii;
 
     /** Algebraic multigrid from ML. */
-    class Multigrid
+    class TrilinosMultigrid
     {
     public:
       /** Copies the rows into an Epetra matrix and coarsens it; may throw. */
@@ -152,7 +152,7 @@ namespace kedge
       MPI_Comm                      communicator = MPI_COMM_SELF;
       DistributedMatrix             matrix;
       std::unique_ptr<IncompleteLu> incomplete_lu;
-      Multigrid                     multigrid;
+      TrilinosMultigrid             multigrid;
     };
   } // namespace
 

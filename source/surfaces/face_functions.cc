@@ -134,4 +134,5 @@ namespace kedge
                                                               const dealii::Point<dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -251,4 +251,5 @@ namespace kedge
                                              const std::vector<double> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge

@@ -298,4 +298,5 @@ namespace kedge
   template class GhostPenalty<dim>;
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
 } // namespace kedge
