@@ -59,8 +59,15 @@ kedge_add_scene_test(scene.spheres_collision.smooth prm/spheres_collision.prm
 kedge_add_scene_test(refusal.surface_spacing prm/prisms_collision.prm
   SET "Contact/bars/Surface spacing = 1e-6" EXPECT_EXIT 1
   EXPECT_STDERR "Surface spacing of .* cells .* more surface points" LABELS refusal)
-kedge_add_scene_test(scene.contact.ranks prm/prisms_collision.prm RANKS 2
-  EXPECT_EXIT 1 EXPECT_STDERR "Contact with a law runs on one process")
+# several processes: each knows the nodes of all surfaces, and adds what it owns
+kedge_add_scene_test(scene.prisms_collision.ranks prm/prisms_collision.prm COMPARE_RANKS 1e-7)
+kedge_add_scene_test(scene.spheres_collision.ranks prm/spheres_collision.prm RANKS 2)
+kedge_add_scene_test(scene.hertz_line.ranks prm/hertz_line.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.block_on_slope.ranks prm/block_on_slope.prm RANKS 2)
+kedge_add_scene_test(refusal.nodal_contact_on_ranks prm/prisms_nodes.prm RANKS 2
+  EXPECT_EXIT 1 EXPECT_STDERR "Methods at nodes run on one process")
+# friction of saturated soil acts on what its grains carry
+kedge_add_scene_test(scene.friction_returns prm/friction_returns.prm)
 kedge_add_test(scene.contact.surfaces LABELS scene
   COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/contact_surfaces.py
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/contact_surfaces)

@@ -135,7 +135,7 @@ namespace kedge
     for (const auto &[cell, sums] : load_and_area)
       if (sums.second >= 0.5 * largest_area)
         pressure = std::max(pressure, sums.first / sums.second);
-    ledger.book(columns.released, released);
+    ledger.book(columns.released, kept_here ? released : 0.);
     ledger.book(columns.friction, friction);
     ledger.book(columns.area, area);
     ledger.book(columns.stick_area, stick_area);
@@ -151,7 +151,7 @@ namespace kedge
   void
   ContactBooks<dim>::book_state(Ledger &ledger, const double stored) const
   {
-    ledger.book(columns.energy, stored);
+    ledger.book(columns.energy, kept_here ? stored : 0.);
     for (const Ledger::Index extreme : {columns.pressure, columns.overlap})
       ledger.book(extreme, 0.); // of states without a step before them
   }

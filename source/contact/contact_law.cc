@@ -16,6 +16,7 @@ namespace kedge
     law.tangent_stiffness = tangent_stiffness;
     law.friction          = parameters.friction;
     law.adhesion          = parameters.adhesion;
+    law.shear_limit       = parameters.shear_limit;
     law.alpha             = scheme.contact_alpha();
     law.conserving        = scheme.conserves_contact();
     law.at_rest           = !scheme.dynamic;
@@ -71,6 +72,27 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** tau, and its slope with p; that with the pore pressure is the opposite. */
+    struct FrictionLimit
+    {
+      double value = 0., by_pressure = 0.;
+    };
+
+    FrictionLimit
+    friction_limit(const ContactLaw &law, const double pressure, const double pore_pressure)
+    {
+      const double effective = pressure - pore_pressure;
+      const double value     = law.friction * std::max(effective, 0.) + law.adhesion;
+      if (value > law.shear_limit)
+        return {law.shear_limit, 0.};
+      return {value, effective > 0. ? law.friction : 0.};
+    }
+  } // namespace
+
+
+
   template <int dim>
   ContactResponse<dim>
   contact_response(const ContactLaw             &law,
@@ -79,7 +101,8 @@ namespace kedge
                    const double                  gap_n,
                    const dealii::Tensor<1, dim> &slip_n,
                    const double                  multiplier,
-                   const dealii::Tensor<1, dim> &D)
+                   const dealii::Tensor<1, dim> &D,
+                   const double                  pore_pressure)
   {
     const double          change   = gap_slope * D;
     const ContactPressure pressure = contact_pressure(law, gap_n, change, multiplier);
@@ -98,9 +121,13 @@ namespace kedge
         result.dissipation = 0.5 * eps_t * slip_n.norm_square();
         return result;
       }
-    const double limit = law.friction * pressure.value + law.adhesion;
+    const FrictionLimit bound = friction_limit(law, pressure.value, pore_pressure);
+    const double        limit = bound.value;
     if (!(limit > 0.))
-      return result;
+      {
+        result.dissipation = 0.5 * eps_t * slip_n.norm_square();
+        return result;
+      }
 
     const dealii::Tensor<1, dim> D_t   = D - (D * normal) * normal;
     const dealii::Tensor<1, dim> trial = -eps_t * (slip_n + law.alpha * D_t);
@@ -116,24 +143,12 @@ namespace kedge
     const dealii::Tensor<1, dim> direction = trial / size, t = limit * direction;
     result.traction += t;
     result.slope +=
-      law.friction * pressure.slope * outer_product(direction, gap_slope) -
+      bound.by_pressure * pressure.slope * outer_product(direction, gap_slope) -
       limit * eps_t * law.alpha / size * (across - outer_product(direction, direction));
-    result.slip_end    = slip_n - (t / eps_t + slip_n) / law.alpha;
-    result.dissipation = -t * (D_t - result.slip_end + slip_n);
+    result.slip_end                  = slip_n - (t / eps_t + slip_n) / law.alpha;
+    result.dissipation               = -t * (D_t - result.slip_end + slip_n);
+    result.traction_by_pore_pressure = -bound.by_pressure * direction;
     return result;
-  }
-
-
-
-  template <int dim>
-  double
-  violation(const ContactLaw             &law,
-            const double                  multiplier,
-            const dealii::Tensor<1, dim> &slip_n,
-            const ContactResponse<dim>   &response)
-  {
-    const double gap = std::abs(response.pressure - multiplier) / law.normal_stiffness;
-    return response.sticks ? std::max(gap, (response.slip_end - slip_n).norm()) : gap;
   }
 
 
@@ -180,7 +195,8 @@ namespace kedge
                    const double,
                    const dealii::Tensor<1, 2> &,
                    const double,
-                   const dealii::Tensor<1, 2> &);
+                   const dealii::Tensor<1, 2> &,
+                   const double);
   template ContactResponse<3>
   contact_response(const ContactLaw &,
                    const dealii::Tensor<1, 3> &,
@@ -188,21 +204,12 @@ namespace kedge
                    const double,
                    const dealii::Tensor<1, 3> &,
                    const double,
-                   const dealii::Tensor<1, 3> &);
+                   const dealii::Tensor<1, 3> &,
+                   const double);
   template double
   stored_in_contact(const ContactLaw &, const double, const double, const dealii::Tensor<1, 2> &);
   template double
   stored_in_contact(const ContactLaw &, const double, const double, const dealii::Tensor<1, 3> &);
-  template double
-  violation(const ContactLaw &,
-            const double,
-            const dealii::Tensor<1, 2> &,
-            const ContactResponse<2> &);
-  template double
-  violation(const ContactLaw &,
-            const double,
-            const dealii::Tensor<1, 3> &,
-            const ContactResponse<3> &);
   template dealii::Tensor<2, 2>
   stiffness_when_closed(const ContactLaw &, const dealii::Tensor<1, 2> &);
   template dealii::Tensor<2, 3>

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/contact_term.h>
 
 #include <sstream>
@@ -14,12 +15,14 @@ namespace kedge
     , cell_size(cell_size)
     , alpha(scheme.contact_alpha())
     , at_rest(!scheme.dynamic)
+    , books(bodies.front().first->patch.grid().communicator())
   {
     for (const ContactBodies<dim> &pair : bodies)
       {
         const ContactLaw law =
           contact_law_of(parameters, pair.normal_stiffness, pair.tangent_stiffness, scheme);
-        const auto &first = moving(*pair.first), &second = moving(*pair.second);
+        const auto &first  = moving(*pair.first, pair.carry_water[0]),
+                   &second = moving(*pair.second, pair.carry_water[1]);
         for (const bool swapped : {false, true})
           passes.emplace_back(swapped ? second : first,
                               swapped ? first : second,
@@ -35,12 +38,12 @@ namespace kedge
 
   template <int dim>
   MovingSurface<dim> &
-  ContactTerm<dim>::moving(const BodySurface<dim> &surface)
+  ContactTerm<dim>::moving(const BodySurface<dim> &surface, const bool carries_water)
   {
     for (auto &known : surfaces)
       if (&known->surface == &surface)
         return *known;
-    surfaces.push_back(std::make_unique<MovingSurface<dim>>(surface));
+    surfaces.push_back(std::make_unique<MovingSurface<dim>>(surface, carries_water));
     return *surfaces.back();
   }
 
@@ -135,6 +138,43 @@ namespace kedge
         surface->surface.interpolate(trial.displacement(surface->surface.field), displacements);
         surface->move(displacements, alpha);
       }
+    read_pore_pressures(trial);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::read_pore_pressures(const Trial<dim> &trial)
+  {
+    for (auto &surface : surfaces)
+      if (surface->carries_water)
+        surface->surface.interpolate_pressure(trial.unknowns.fields[surface->surface.field],
+                                              surface->pore_pressures);
+  }
+
+
+
+  /** What a force that slides owes to the pore water: @p by_pressure times its sample's area. */
+  template <int dim>
+  void
+  ContactTerm<dim>::add_pressure_slope(const SurfaceSamples<dim>                     &half,
+                                       const typename SurfaceSamples<dim>::Sample    &sample,
+                                       const typename CouplingSum<dim>::Coefficients &forces,
+                                       const dealii::Tensor<1, dim>                  &by_pressure,
+                                       CouplingSum<dim>                              &sum) const
+  {
+    if (!half.has_water() || by_pressure == dealii::Tensor<1, dim>())
+      return;
+    typename CouplingSum<dim>::Coefficients pressures;
+    half.for_pore_pressures(
+      sample,
+      [&](const MovingSurface<dim> &side, const unsigned int v, const double e) {
+        side.surface.for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
+          pressures[{side.surface.field, node}] += e * N;
+        });
+      });
+    sum.add_by_pressure(forces, pressures, -sample.area * by_pressure);
   }
 
 
@@ -193,6 +233,8 @@ namespace kedge
     for (const auto &half : passes)
       for (const auto &sample : half.samples())
         {
+          if (!half.is_added_here(sample))
+            continue;
           const ContactResponse<dim>   response = half.response(sample);
           const dealii::Tensor<2, dim> slope =
             to_be_held && response.gap_end < nearly_closed * cell_size
@@ -203,7 +245,7 @@ namespace kedge
           typename CouplingSum<dim>::Coefficients coefficients;
           const auto                              add =
             [&](const BodySurface<dim> &surface, const unsigned int v, const double c) {
-              surface.for_nodes(v, [&](const unsigned int node, const double N) {
+              surface.for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
                 coefficients[{surface.field, node}] += c * N;
               });
             };
@@ -213,6 +255,7 @@ namespace kedge
           for (int i = 0; i < dim; ++i)
             add(other, other.mesh().facets[sample.partner.facet][i], -sample.partner.weights[i]);
           sum.add(coefficients, -sample.area * slope);
+          add_pressure_slope(half, sample, coefficients, response.traction_by_pore_pressure, sum);
         }
     sum.add_to(tangent);
   }
@@ -265,29 +308,39 @@ namespace kedge
 
 
 
-  /** Uzawa's step; false if no closed sample has a large gap and none that sticks creeps. */
+  /** Uzawa's step; false if no cell has a large gap and nothing that sticks creeps. */
   template <int dim>
   bool
   ContactTerm<dim>::update_multipliers()
   {
+    if (n_updates == most_updates)
+      return false;
     using Multipliers = typename SurfaceSamples<dim>::Multipliers;
     double                                           largest = 0.; // violation [m]
     std::vector<std::map<unsigned int, Multipliers>> multipliers;
     for (const auto &half : passes)
       {
+        CellMultipliers<dim> cells(half.sampled.surface.patch.grid().lattice());
         multipliers.emplace_back();
         for (const auto &sample : half.samples())
           {
             const ContactResponse<dim> here = half.response(sample);
-            largest =
-              std::max(largest, violation(half.law, sample.multiplier, sample.slip_n, here));
+            cells.add(half.place_at_balance(sample),
+                      sample.area,
+                      half.law,
+                      sample.multiplier,
+                      sample.slip_n,
+                      here);
             if (here.pressure > 0.)
-              multipliers.back()[sample.facet] = {here.pressure,
-                                                  here.slip_end,
-                                                  sample.partner.normal};
+              multipliers.back()[sample.facet] = {0., here.slip_end, sample.partner.normal};
           }
+        for (std::size_t n = 0; n < half.samples().size(); ++n)
+          if (const auto known = multipliers.back().find(half.samples()[n].facet);
+              known != multipliers.back().end())
+            known->second.pressure = cells.updated(n);
+        largest = std::max(largest, cells.largest_violation());
       }
-    if (largest <= smallest_gap * cell_size || n_updates == most_updates)
+    if (largest <= smallest_gap * cell_size)
       return false;
     for (std::size_t k = 0; k < passes.size(); ++k)
       passes[k].set_multipliers(multipliers[k]);
@@ -363,6 +416,8 @@ namespace kedge
   ContactTerm<dim>::places_of_step(const double dt) const
   {
     std::vector<ContactPlace<dim>> result;
+    if (!books.are_kept_here())
+      return result;
     for (std::size_t k = 0; k < passes.size(); ++k)
       for (const auto &sample : passes[k].samples())
         {
@@ -404,6 +459,8 @@ namespace kedge
   void
   ContactTerm<dim>::show(ContactPicture<dim> &picture) const
   {
+    if (!books.are_kept_here())
+      return;
     for (const auto &surface : surfaces)
       picture.add_surface(surface->surface);
     picture.add(committed_places);

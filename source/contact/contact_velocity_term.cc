@@ -38,18 +38,71 @@ namespace kedge
 
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
-  ContactVelocityTerm<dim>::forces(const Trial<dim> &trial) const
+  std::vector<typename ContactVelocityTerm<dim>::TrialForce>
+  ContactVelocityTerm<dim>::trial_forces(const Trial<dim> &trial) const
   {
-    std::vector<dealii::Tensor<1, dim>> result(this->nodes().size());
-    const double                        dt = trial.times.dt;
+    std::vector<TrialForce> result(this->nodes().size());
+    const double            dt = trial.times.dt;
     for (const Coupling &coupling : couplings)
       {
         const ContactNode<dim> &from = this->nodes()[coupling.from];
-        const double approach = from.direction[0] * this->relative_displacement(from, trial) / dt;
-        if (approach > 0.)
-          result[coupling.at] -= coupling.mass / dt * approach * from.direction[0];
+        if (!approaches(from, trial))
+          continue;
+        const dealii::Tensor<1, dim> n        = from.direction[0];
+        const dealii::Tensor<1, dim> velocity = this->relative_displacement(from, trial) / dt;
+        result[coupling.at].normal -= coupling.mass / dt * (n * velocity) * n;
+        result[coupling.at].whole -= coupling.mass / dt * velocity;
       }
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  ContactVelocityTerm<dim>::forces(const Trial<dim> &trial) const
+  {
+    std::vector<dealii::Tensor<1, dim>> result;
+    const std::vector<TrialForce>       trial_forces = this->trial_forces(trial);
+    for (std::size_t n = 0; n < trial_forces.size(); ++n)
+      {
+        result.push_back(trial_forces[n].normal);
+        if (friction == 0.)
+          continue;
+        const dealii::Tensor<1, dim> along = along_surface(n, trial_forces[n].whole);
+        const double                 bound = friction * trial_forces[n].normal.norm();
+        result.back() += along.norm() <= bound ? along : bound / along.norm() * along;
+      }
+    return result;
+  }
+
+
+
+  /** d(friction at a node)/d(approach of another, whose normal is given), but for its mass. */
+  template <int dim>
+  dealii::Tensor<2, dim>
+  ContactVelocityTerm<dim>::slope_of_friction(const std::size_t             node,
+                                              const TrialForce             &force,
+                                              const dealii::Tensor<1, dim> &normal_from) const
+  {
+    dealii::Tensor<2, dim> result; // T: all velocities make the trial force
+    for (int d = 0; d < dim; ++d)
+      {
+        dealii::Tensor<1, dim> e;
+        e[d]          = 1.;
+        const auto Te = along_surface(node, e);
+        for (int i = 0; i < dim; ++i)
+          result[i][d] = Te[i];
+      }
+    const dealii::Tensor<1, dim> along = along_surface(node, force.whole);
+    const double                 size = along.norm(), pressure = force.normal.norm();
+    if (size <= friction * pressure)
+      return result;
+    const dealii::Tensor<1, dim> m = along / size;
+    result -= outer_product(m, m * result);
+    result *= friction * pressure / size;
+    if (pressure > 0.)
+      result += friction * (force.normal / pressure * normal_from) * outer_product(m, normal_from);
     return result;
   }
 
@@ -59,15 +112,22 @@ namespace kedge
   void
   ContactVelocityTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    const double dt = trial.times.dt;
+    const double                  dt           = trial.times.dt;
+    const std::vector<TrialForce> trial_forces = this->trial_forces(trial);
     for (const Coupling &coupling : couplings)
       {
-        const ContactNode<dim>      &from       = this->nodes()[coupling.from];
-        const dealii::Tensor<1, dim> n          = from.direction[0];
-        const bool                   approaches = n * this->relative_displacement(from, trial) > 0.;
+        const ContactNode<dim>      &from = this->nodes()[coupling.from];
+        const dealii::Tensor<1, dim> n    = from.direction[0];
+        dealii::Tensor<2, dim>       slope; // 0 keeps the entry
+        if (approaches(from, trial))
+          {
+            slope = outer_product(n, n);
+            if (friction > 0.)
+              slope += slope_of_friction(coupling.at, trial_forces[coupling.at], n);
+          }
         this->add_slope(this->nodes()[coupling.at],
                         from,
-                        (approaches ? -coupling.mass / (dt * dt) : 0.) * outer_product(n, n),
+                        -coupling.mass / (dt * dt) * slope,
                         tangent);
       }
   }

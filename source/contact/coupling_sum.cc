@@ -3,19 +3,44 @@
 namespace kedge
 {
   template <int dim>
-  void
-  CouplingSum<dim>::add(const Coefficients &coefficients, const dealii::Tensor<2, dim> &matrix)
+  typename CouplingSum<dim>::Nodes
+  CouplingSum<dim>::nodes_of(const Coefficients &coefficients)
   {
     Nodes nodes;
     nodes.reserve(coefficients.size());
     for (const auto &[node, c] : coefficients)
       nodes.push_back(node);
-    auto &sum = blocks[nodes];
-    sum.resize(nodes.size() * nodes.size());
+    return nodes;
+  }
+
+
+
+  template <int dim>
+  void
+  CouplingSum<dim>::add(const Coefficients &coefficients, const dealii::Tensor<2, dim> &matrix)
+  {
+    auto &sum = blocks[nodes_of(coefficients)];
+    sum.resize(coefficients.size() * coefficients.size());
     auto block = sum.begin();
     for (const auto &[row, c_row] : coefficients)
       for (const auto &[column, c_column] : coefficients)
         *block++ += c_row * c_column * matrix;
+  }
+
+
+
+  template <int dim>
+  void
+  CouplingSum<dim>::add_by_pressure(const Coefficients           &forces,
+                                    const Coefficients           &pressures,
+                                    const dealii::Tensor<1, dim> &vector)
+  {
+    auto &sum = by_pressure[{nodes_of(forces), nodes_of(pressures)}];
+    sum.resize(forces.size() * pressures.size());
+    auto block = sum.begin();
+    for (const auto &[row, c] : forces)
+      for (const auto &[column, e] : pressures)
+        *block++ += c * e * vector;
   }
 
 
@@ -35,6 +60,19 @@ namespace kedge
                   tangent.add({row.first, row.second, i},
                               {column.first, column.second, j},
                               (*block)[i][j]);
+              ++block;
+            }
+      }
+    for (const auto &[nodes, sum] : by_pressure)
+      {
+        auto block = sum.begin();
+        for (const auto &row : nodes.first)
+          for (const auto &column : nodes.second)
+            {
+              for (unsigned int i = 0; i < dim; ++i)
+                tangent.add({row.first, row.second, i},
+                            {column.first, column.second, dim},
+                            (*block)[i]);
               ++block;
             }
       }

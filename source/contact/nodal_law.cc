@@ -2,6 +2,9 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <array>
+#include <cmath>
+
 namespace kedge
 {
   double
@@ -142,13 +145,19 @@ namespace kedge
 
     template <int dim>
     NodalResponse<dim>
-    stiffening_penalty(const NodalLaw &law,
-                       const unsigned int,
+    stiffening_penalty(const NodalLaw               &law,
+                       const unsigned int            n_directions,
                        const dealii::Tensor<1, dim> &multiplier,
                        const dealii::Tensor<1, dim> &displacement,
                        const NodalHold               hold)
     {
-      return force_of_law(law, 1, multiplier, displacement, hold, true, nonlinear_pressure);
+      return force_of_law(law,
+                          n_directions,
+                          multiplier,
+                          displacement,
+                          hold,
+                          true,
+                          nonlinear_pressure);
     }
 
     /** C = lambda - F (5.80). */
@@ -181,22 +190,65 @@ namespace kedge
       return response;
     }
 
+    /** r D_t of multipliers that stick, of those that slide its part across them, and its slopes.
+     */
+    template <int dim>
+    void
+    add_slip(const NodalLaw               &law,
+             const unsigned int            n_directions,
+             const dealii::Tensor<1, dim> &multiplier,
+             const dealii::Tensor<1, dim> &displacement,
+             NodalResponse<dim>           &response)
+    {
+      std::array<double, dim> m{}, slip{};
+      double                  square = 0., along = 0.;
+      for (unsigned int i = 1; i < n_directions; ++i)
+        square += multiplier[i] * multiplier[i];
+      const double size = std::sqrt(square);
+      for (unsigned int i = 1; i < n_directions; ++i)
+        {
+          m[i]    = response.slides ? multiplier[i] / size : 0.;
+          slip[i] = displacement[i];
+          along += m[i] * slip[i];
+        }
+      for (unsigned int i = 1; i < n_directions; ++i)
+        {
+          response.constraint[i] += law.stiffness * (slip[i] - along * m[i]);
+          for (unsigned int j = 1; j < n_directions; ++j)
+            {
+              const double across = (i == j ? 1. : 0.) - m[i] * m[j];
+              response.constraint_by_displacement[i][j] += law.stiffness * across;
+              if (response.slides)
+                response.constraint_by_multiplier[i][j] -=
+                  law.stiffness / size * (across * along + m[i] * (slip[j] - along * m[j]));
+            }
+        }
+    }
+
     template <int dim>
     NodalResponse<dim>
-    multipliers(const NodalLaw &law,
-                const unsigned int,
+    multipliers(const NodalLaw               &law,
+                const unsigned int            n_directions,
                 const dealii::Tensor<1, dim> &multiplier,
                 const dealii::Tensor<1, dim> &displacement,
                 const NodalHold               hold)
     {
-      NodalResponse<dim> response =
-        force_of_law(law, 1, multiplier, displacement, hold, false, pressure_of_multiplier);
-      set_constraint(1, multiplier, response);
-      if (response.closed)
-        {
-          response.constraint[0] += law.stiffness * law.alpha * displacement[0];
-          response.constraint_by_displacement[0][0] += law.stiffness * law.alpha;
-        }
+      // what has begun to slide has |lambda_t| = mu p to round-off, and goes on sliding
+      NodalLaw with_bound = law;
+      with_bound.friction *= 1. - 1e-10;
+      NodalResponse<dim> response = force_of_law(with_bound,
+                                                 n_directions,
+                                                 multiplier,
+                                                 displacement,
+                                                 hold,
+                                                 false,
+                                                 pressure_of_multiplier);
+      set_constraint(n_directions, multiplier, response);
+      if (!response.closed)
+        return response;
+      response.constraint[0] += law.stiffness * law.alpha * displacement[0];
+      response.constraint_by_displacement[0][0] += law.stiffness * law.alpha;
+      add_slip(law, n_directions, multiplier, displacement, response);
       return response;
     }
   } // namespace

@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/coupling_sum.h>
 #include <kedge/contact/wall_term.h>
 
@@ -17,11 +18,13 @@ namespace kedge
     , cell_size(cell_size)
     , alpha(scheme.contact_alpha())
     , at_rest(!scheme.dynamic)
+    , books(bodies.front().surface->patch.grid().communicator())
   {
     for (const WallBody<dim> &body : bodies)
       {
         Side side;
-        side.surface = body.surface;
+        side.surface       = body.surface;
+        side.carries_water = body.carries_water;
         side.law =
           contact_law_of(parameters, body.normal_stiffness, body.tangent_stiffness, scheme);
         sides.push_back(side);
@@ -111,7 +114,12 @@ namespace kedge
   {
     for (Side &side : sides)
       if (!side.samples.empty())
-        side.surface->interpolate(trial.displacement(side.surface->field), side.displacements);
+        {
+          side.surface->interpolate(trial.displacement(side.surface->field), side.displacements);
+          if (side.carries_water)
+            side.surface->interpolate_pressure(trial.unknowns.fields[side.surface->field],
+                                               side.pore_pressures);
+        }
   }
 
 
@@ -132,13 +140,18 @@ namespace kedge
   ContactResponse<dim>
   WallTerm<dim>::response(const Side &side, const Sample &sample) const
   {
+    double pore_pressure = 0.;
+    if (!side.pore_pressures.empty())
+      for (const unsigned int v : side.surface->mesh().facets[sample.facet])
+        pore_pressure += side.pore_pressures[v] / dim;
     return contact_response(side.law,
                             plane.normal,
                             plane.normal,
                             sample.start.gap,
                             sample.start.slip,
                             sample.start.multiplier,
-                            displacement(side, sample));
+                            displacement(side, sample),
+                            pore_pressure);
   }
 
 
@@ -186,6 +199,8 @@ namespace kedge
     for (const Side &side : sides)
       for (const Sample &sample : side.samples)
         {
+          if (!side.surface->owns(side.surface->mesh().facets[sample.facet][0]))
+            continue; // another rank adds it
           const ContactResponse<dim>   here = response(side, sample);
           const dealii::Tensor<2, dim> slope =
             to_be_held && here.gap_end < nearly_closed * cell_size
@@ -195,18 +210,21 @@ namespace kedge
             continue;
           typename CouplingSum<dim>::Coefficients coefficients;
           for (const unsigned int v : side.surface->mesh().facets[sample.facet])
-            side.surface->for_nodes(v, [&](const unsigned int node, const double N) {
+            side.surface->for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
               coefficients[{side.surface->field, node}] += N / dim;
             });
           sum.add(coefficients, -sample.area * slope);
+          if (side.carries_water && here.traction_by_pore_pressure != dealii::Tensor<1, dim>())
+            sum.add_by_pressure(coefficients,
+                                coefficients,
+                                -sample.area * here.traction_by_pore_pressure);
         }
     sum.add_to(tangent);
   }
 
 
 
-  /** Uzawa's step at rest; false if no closed sample has a large gap and none that sticks creeps.
-   */
+  /** Uzawa's step at rest; false if no cell has a large gap and nothing that sticks creeps. */
   template <int dim>
   bool
   WallTerm<dim>::refresh(const Trial<dim> &trial)
@@ -214,28 +232,33 @@ namespace kedge
     if (!at_rest || n_updates == most_updates)
       return false;
     move(trial);
-    std::vector<std::vector<ContactResponse<dim>>> responses;
-    double                                         largest = 0.; // [m]
+    std::vector<CellMultipliers<dim>>                cells;
+    std::vector<std::vector<dealii::Tensor<1, dim>>> slips;
+    double                                           largest = 0.; // [m]
     for (const Side &side : sides)
       {
-        responses.emplace_back();
+        cells.emplace_back(side.surface->patch.grid().lattice());
+        slips.emplace_back();
         for (const Sample &sample : side.samples)
           {
-            responses.back().push_back(response(side, sample));
-            largest = std::max(largest,
-                               violation(side.law,
-                                         sample.start.multiplier,
-                                         sample.start.slip,
-                                         responses.back().back()));
+            const ContactResponse<dim> here = response(side, sample);
+            cells.back().add(sample.place + alpha * displacement(side, sample),
+                             sample.area,
+                             side.law,
+                             sample.start.multiplier,
+                             sample.start.slip,
+                             here);
+            slips.back().push_back(here.slip_end);
           }
+        largest = std::max(largest, cells.back().largest_violation());
       }
     if (largest <= smallest_gap * cell_size)
       return false;
     for (std::size_t k = 0; k < sides.size(); ++k)
       for (std::size_t n = 0; n < sides[k].samples.size(); ++n)
         {
-          sides[k].samples[n].start.multiplier = responses[k][n].pressure;
-          sides[k].samples[n].start.slip       = responses[k][n].slip_end;
+          sides[k].samples[n].start.multiplier = cells[k].updated(n);
+          sides[k].samples[n].start.slip       = slips[k][n];
         }
     ++n_updates;
     return true;
@@ -273,7 +296,8 @@ namespace kedge
             left += sample.area * stored(side.law, after);
             if (side.law.conserving ? end.gap_end < 0. || true_gap < 0. : end.pressure > 0.)
               side.end_of_step[sample.facet] = after;
-            places.push_back(place_of(side, sample, trial.times.dt));
+            if (books.are_kept_here())
+              places.push_back(place_of(side, sample, trial.times.dt));
           }
         // committed less taken up by samples; and at the end what samples had less what is kept
         released += stored(side, side.memory) - taken_up + left - stored(side, side.end_of_step);
@@ -326,6 +350,8 @@ namespace kedge
   void
   WallTerm<dim>::show(ContactPicture<dim> &picture) const
   {
+    if (!books.are_kept_here())
+      return;
     for (const Side &side : sides)
       picture.add_surface(*side.surface);
     picture.add(committed_places);

@@ -17,7 +17,7 @@ namespace kedge
 
   template <int dim>
   void
-  Patch<dim>::reinit(const MaterialPoints<dim> &cloud, const Reach &reach)
+  Patch<dim>::reinit(const MaterialPoints<dim> &cloud, const Reach &reach, const Reach &claim)
   {
     points.reinit(background,
                   cloud,
@@ -26,6 +26,8 @@ namespace kedge
                   parameters.shared_volume,
                   parameters.holds_body);
     auto reached = points.reached_nodes(background.window());
+    if (claim)
+      claim(reached);
     ties.find(background, points, parameters.smallest_filling, reached, parameters.coarse_pressure);
     reach(reached);
     new_nodes_   = nodes.reinit(background, reached);

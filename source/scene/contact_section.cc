@@ -65,25 +65,23 @@ namespace kedge
       };
       const std::string text = "Method = " + section.text("Method");
       if (method == ContactMethod::none && !section.is_empty("Method"))
-        for (const char *entry :
-             {"Friction coefficient", "Adhesion", "Penalty factor", "Surface spacing"})
+        for (const char *entry : {"Friction coefficient",
+                                  "Adhesion",
+                                  "Shear limit",
+                                  "Penalty factor",
+                                  "Surface spacing"})
           refuse(entry,
                  "With Method = none the bodies do not act on each other. Leave one of the two "
                  "out.");
       if (!is_nodal(method))
         return;
-      for (const char *entry : {"Adhesion", "Surface spacing"})
+      for (const char *entry : {"Adhesion", "Shear limit", "Surface spacing"})
         refuse(entry,
                text + " finds contact at nodes of the grid and does not know this entry; Method "
                       "= surface points does. Leave one of the two out.");
       if (method == ContactMethod::lagrange_multipliers ||
           method == ContactMethod::contact_velocity)
         refuse("Penalty factor", text + " has no penalty. Leave one of the two out.");
-      if (method != ContactMethod::augmented_lagrangian && method != ContactMethod::penalty &&
-          method != ContactMethod::ray_tracing && !section.is_empty("Friction coefficient") &&
-          section.number("Friction coefficient") > 0.)
-        refuse("Friction coefficient",
-               text + " knows contact without friction only. Take 0, or another method.");
     }
 
     /** The entries of a law; without a method each of them asks for one. */
@@ -99,6 +97,7 @@ namespace kedge
       const std::pair<const char *, double *> entries[] = {
         {"Friction coefficient", &contact.friction},
         {"Adhesion", &contact.adhesion},
+        {"Shear limit", &contact.shear_limit},
         {"Penalty factor", &contact.penalty_factor},
         {"Surface spacing", &contact.spacing}};
       for (const auto &[entry, value] : entries)
@@ -195,11 +194,17 @@ namespace kedge
        {"Friction coefficient",
         "",
         allow.number(Range::not_negative()).or_empty(),
-        "Largest shear stress of a contact over its pressure [-]. Empty: 0."},
+        "Largest shear stress of a contact over its pressure, of saturated bodies over the "
+        "effective one, less the pore pressure [-]. Empty: 0."},
        {"Adhesion",
         "",
         allow.number(Range::not_negative()).or_empty(),
         "Shear stress that a closed contact bears whatever its pressure [Pa]. Empty: 0."},
+       {"Shear limit",
+        "",
+        allow.number(Range::positive()).or_empty(),
+        "Largest shear stress of a contact whatever its pressure: in clay a part alpha of the "
+        "undrained strength [Pa]. Empty: none."},
        {"Penalty factor",
         "",
         allow.number(Range::positive()).or_empty(),

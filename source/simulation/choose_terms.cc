@@ -192,6 +192,14 @@ namespace kedge
       return contact.method == ContactMethod::surface_points;
     }
 
+    template <int dim>
+    bool
+    carries_water(const Scene<dim> &scene, const unsigned int body)
+    {
+      return scene.pore_fluid &&
+             (scene.pore_fluid->is_dry.empty() || !scene.pore_fluid->is_dry[body]);
+    }
+
     /** How stiff the contact of two bodies is: eps = beta M / h, eps_t by Mindlin's ratio. */
     template <int dim>
     ContactBodies<dim>
@@ -209,7 +217,11 @@ namespace kedge
           poisson += 0.5 * scene.materials[scene.bodies[body].material].poisson_ratio;
         }
       const double stiffness = contact.penalty_factor / (softness * cell_size);
-      return {&first, &second, stiffness, stiffness * (1. - poisson) / (1. - 0.5 * poisson)};
+      return {&first,
+              &second,
+              stiffness,
+              stiffness * (1. - poisson) / (1. - 0.5 * poisson),
+              {{carries_water(scene, first.body), carries_water(scene, second.body)}}};
     }
 
     /** The same against a wall, which gives nothing: the harmonic mean is twice the body's. */
@@ -224,7 +236,10 @@ namespace kedge
       const double poisson = scene.materials[scene.bodies[surface.body].material].poisson_ratio;
       const double stiffness =
         2. * contact.penalty_factor * p_wave_modulus(bodies.materials[surface.body]) / cell_size;
-      return {&surface, stiffness, stiffness * (1. - poisson) / (1. - 0.5 * poisson)};
+      return {&surface,
+              stiffness,
+              stiffness * (1. - poisson) / (1. - 0.5 * poisson),
+              carries_water(scene, surface.body)};
     }
 
     template <int dim>
@@ -327,20 +342,9 @@ namespace kedge
     std::map<std::string, const BodySurface<dim> *> surfaces;
     for (const SurfaceTerm<dim> *term : surface_terms)
       surfaces[term->surface().body_name] = &term->surface();
-    const bool any =
-      std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const auto &contact) {
-        return with_law(contact) || is_nodal(contact.method);
-      });
-    if (any && dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
-      throw UserError("Contact with a law runs on one process, not on several. Start kedge "
-                      "without mpirun, or leave the entries of the law out of Contact.");
     for (const ContactParameters &contact : scene.contacts)
       if (with_law(contact))
         {
-          if (scene.pore_fluid && (contact.friction > 0. || contact.adhesion > 0.))
-            throw UserError("Contact/" + contact.name +
-                            ": Friction acts on the effective pressure, which contact does not "
-                            "know yet: with a Pore fluid it must be frictionless.");
           if (contact.has_wall)
             {
               std::vector<WallBody<dim>> touching;
@@ -370,6 +374,10 @@ namespace kedge
   void
   Model<dim>::choose_nodal_contact_term(const ContactParameters &contact)
   {
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+      throw UserError("Contact/" + contact.name +
+                      ": Methods at nodes run on one process, not on several. Start kedge without "
+                      "mpirun, or take Method = surface points.");
     if (scene.pore_fluid)
       throw UserError("Contact/" + contact.name +
                       ": Methods at nodes know dry bodies only. Leave the Pore fluid out, or take "
@@ -431,7 +439,8 @@ namespace kedge
       pair,
       std::array<const NodeMatrix<dim> *, 2>{
         {&fields[pair.number[0]]->transfer->mass(), &fields[pair.number[1]]->transfer->mass()}},
-      law.alpha));
+      law.alpha,
+      contact.friction));
   }
 
 #define KEDGE_INSTANTIATE(dim)                                                   \

@@ -53,11 +53,16 @@ namespace kedge
     std::vector<int> radius;
     for (unsigned int f = 0; f < model.fields.size(); ++f)
       {
-        model.fields[f]->patch.reinit(model.points.points(),
-                                      [&](std::vector<unsigned char> &reached) {
-                                        for (auto &term : model.terms)
-                                          term->reach(f, reached);
-                                      });
+        model.fields[f]->patch.reinit(
+          model.points.points(),
+          [&](std::vector<unsigned char> &reached) {
+            for (auto &term : model.terms)
+              term->reach(f, reached);
+          },
+          [&](std::vector<unsigned char> &reached) {
+            for (auto &term : model.terms)
+              term->claim(f, reached);
+          });
         radius.push_back(solves ? model.fields[f]->tangent_radius : 0);
       }
     step_equations.reinit(radius);

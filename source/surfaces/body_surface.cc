@@ -144,6 +144,33 @@ namespace kedge
 
   template <int dim>
   void
+  BodySurface<dim>::claim_nodes(std::vector<unsigned char> &reached)
+  {
+    const auto               &window  = patch.window();
+    const std::vector<double> filling = fillings();
+    is_known                          = true;
+    if (open_sides.any())
+      let_out(filling);
+    const std::vector<bool> stays = vertices_that_stay();
+    for (unsigned int v = 0; v < n_vertices(); ++v)
+      {
+        if (!stays[v])
+          continue;
+        const LatticeIndex<dim> cell = root_cell(mesh_.vertices[v], filling, search_radius);
+        for (unsigned int c = 0; c < n_corners; ++c)
+          {
+            LatticeIndex<dim> node = cell;
+            for (int d = 0; d < dim; ++d)
+              node[d] += static_cast<int>((c >> d) & 1u);
+            reached[window.node_number(node)] = 1;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
   BodySurface<dim>::find_roots()
   {
     const auto               &lattice = patch.grid().lattice();
@@ -156,6 +183,7 @@ namespace kedge
     std::map<unsigned int, unsigned int> number_of_cell;
     roots.clear();
     root_of_vertex.assign(n_vertices(), elsewhere);
+    is_own.assign(n_vertices(), false);
     weights.resize(n_vertices());
     for (unsigned int v = 0; v < n_vertices(); ++v)
       {
@@ -163,7 +191,8 @@ namespace kedge
           continue;
         const dealii::Point<dim> &x    = mesh_.vertices[v];
         const LatticeIndex<dim>   cell = root_cell(x, filling, search_radius);
-        if (patch.grid().cell_owner(cell) != rank)
+        is_own[v]                      = patch.grid().cell_owner(cell) == rank;
+        if (!is_own[v] && !is_known)
           continue;
         const auto [entry, is_new] =
           number_of_cell.emplace(window.cell_number(cell), static_cast<unsigned int>(roots.size()));
@@ -218,6 +247,28 @@ namespace kedge
                   patch.grid().communicator());
     for (unsigned int v = 0; v < n_vertices(); ++v)
       std::copy_n(sums.begin() + v * dim, dim, at_vertices[v].begin_raw());
+  }
+
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::interpolate_pressure(const std::vector<double> &unknowns,
+                                         std::vector<double>       &at_vertices) const
+  {
+    const std::size_t n_components = patch.n_components();
+    at_vertices.assign(n_vertices(), 0.);
+    for (unsigned int v = 0; v < n_vertices(); ++v)
+      for_nodes(v, [&](const unsigned int node, const double N) {
+        at_vertices[v] += N * unknowns[(node + 1) * n_components - 1];
+      });
+    if (dealii::Utilities::MPI::n_mpi_processes(patch.grid().communicator()) > 1)
+      MPI_Allreduce(MPI_IN_PLACE,
+                    at_vertices.data(),
+                    static_cast<int>(at_vertices.size()),
+                    MPI_DOUBLE,
+                    MPI_SUM,
+                    patch.grid().communicator());
   }
 
 

@@ -50,6 +50,18 @@ namespace kedge
 
   template <int dim>
   void
+  SurfaceTerm<dim>::claim(const unsigned int field, std::vector<unsigned char> &reached)
+  {
+    const auto &communicator = surface_.patch.grid().communicator();
+    if (contact && field == surface_.field && surface_.n_facets() > 0 &&
+        dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+      surface_.claim_nodes(reached);
+  }
+
+
+
+  template <int dim>
+  void
   SurfaceTerm<dim>::activate(const MaterialPoints<dim> &)
   {
     if (surface_.n_facets() > 0)

@@ -98,6 +98,55 @@ TYPED_TEST(ContactLawTest, WorkIsWhatIsStoredLessWhatIsDissipated)
     EXPECT_GT(n, 10u); // all branches were there
 }
 
+TYPED_TEST(ContactLawTest, FrictionActsOnWhatTheGrainsCarryUpToItsLimit)
+{
+  constexpr int dim   = TypeParam::value;
+  unsigned int  n_wet = 0, n_limited = 0, n_lifted = 0;
+  for (unsigned int seed = 1; seed < 400; ++seed)
+    {
+      ContactLaw law  = some_law(true);
+      law.shear_limit = 0.25;
+      const State<dim> s(seed);
+      const double     p_w   = 0.002 * seed;
+      const auto       under = [&](const double pore_pressure) {
+        return contact_response(law,
+                                s.normal,
+                                s.slope,
+                                s.gap,
+                                s.slip,
+                                s.multiplier,
+                                s.D,
+                                pore_pressure);
+      };
+      const ContactResponse<dim> r = under(p_w), dry = under(0.);
+      EXPECT_EQ(r.pressure, dry.pressure); // the surfaces carry all of it
+      const dealii::Tensor<1, dim> t = r.traction - r.pressure * s.slope;
+      const double                 bound =
+        std::min(law.friction * std::max(r.pressure - p_w, 0.) + law.adhesion, law.shear_limit);
+      if (r.pressure > 0. && !r.sticks)
+        {
+          EXPECT_NEAR(t.norm(), bound, 1e-14);
+        }
+      // the books, whatever the bound is; numbers of order one, to round-off
+      EXPECT_NEAR(-(r.traction * s.D),
+                  stored_in_contact(law, r.gap_end, s.multiplier, r.slip_end) -
+                    stored_in_contact(law, s.gap, s.multiplier, s.slip) + r.dissipation,
+                  1e-14);
+      const double e = 1e-6;
+      if (r.sticks == under(p_w + e).sticks && r.sticks == under(p_w - e).sticks)
+        {
+          const auto slope = (under(p_w + e).traction - under(p_w - e).traction) / (2. * e);
+          // of central differences: round-off 1e-16/e
+          EXPECT_LT((r.traction_by_pore_pressure - slope).norm(), 1e-9);
+        }
+      n_wet += r.traction_by_pore_pressure.norm() > 0.;
+      n_limited += r.pressure > 0. && bound == law.shear_limit;
+      n_lifted += r.pressure > 0. && r.pressure < p_w;
+    }
+  for (const unsigned int n : {n_wet, n_limited, n_lifted})
+    EXPECT_GT(n, 10u); // all branches were there
+}
+
 TYPED_TEST(ContactLawTest, MultipliersOfAStateOfRestStoreNothing)
 {
   constexpr int dim = TypeParam::value;

@@ -42,6 +42,42 @@ TYPED_TEST(ContactTermTest, TangentIsTheSlopeOfTheResidual)
       }
 }
 
+/** Friction acts on what the grains carry: the tangent couples forces and pore pressures. */
+TYPED_TEST(ContactTermTest, TangentOfSaturatedBodiesHasTheSlopeWithThePoreWater)
+{
+  constexpr int dim = TypeParam::value;
+  for (const std::string dry : {"", "    set Saturated = false\n"})
+    {
+      std::string text = two_blocks<dim>(rough, "newmark") + R"(
+subsection Pore fluid
+  set Density                = 1000
+  set Bulk modulus           = 1e6
+  set Hydraulic conductivity = 1e-3
+  set Reference gravity      = 10
+end
+)";
+      for (const std::string ratio : {"0.3", "0.2"})
+        {
+          const std::string entry = "    set Poisson's ratio = " + ratio + "\n";
+          text.insert(text.find(entry), "    set Initial porosity = 0.3\n");
+        }
+      text.insert(text.find("    set Material = stiff"), dry); // the upper one
+      Setting<dim> setting(text);
+      setting.run(2, 0.01);
+      setting.start_step(0.01);
+      setting.correct({0.9, 0.1, 0.1});
+      setting.equations->evaluate();
+      unsigned int n_wet = 0;
+      for (const auto &term : setting.model.terms)
+        if (const auto *contact = dynamic_cast<const ContactTerm<dim> *>(term.get()))
+          for (const auto &half : contact->halves())
+            for (const auto &sample : half.samples())
+              n_wet += half.response(sample).traction_by_pore_pressure.norm() > 0.;
+      EXPECT_GT(n_wet, 4u);
+      test::expect_slope_of_residual(*setting.equations);
+    }
+}
+
 TYPED_TEST(ContactTermTest, BooksCloseAndMomentumStays)
 {
   constexpr int dim = TypeParam::value;

@@ -113,17 +113,16 @@ TYPED_TEST(NodalLawTest, TheConstraintIsThatOfContact)
       dealii::Tensor<1, dim> lambda, D;
       lambda[0] = -2.;
       EXPECT_LT(constraint(lambda, D), 1e-15); // presses
-      if (method == ContactMethod::augmented_lagrangian)
-        {
-          lambda[1] = 0.3;
-          EXPECT_LT(constraint(lambda, D), 1e-15); // sticks
-          D[1] = 0.1;
-          EXPECT_GT(constraint(lambda, D), 0.1); // slips below the bound
-          lambda[1] = -0.8;
-          EXPECT_LT(constraint(lambda, D), 1e-15); // slides against the force
-          lambda[1] = 0.8;
-          EXPECT_GT(constraint(lambda, D), 0.1); // slides with it
-        }
+      lambda[1] = 0.3;
+      EXPECT_LT(constraint(lambda, D), 1e-15); // sticks
+      D[1] = 0.1;
+      EXPECT_GT(constraint(lambda, D), 0.1); // slips below the bound
+      lambda[1] = -0.8;
+      EXPECT_LT(constraint(lambda, D), 1e-9); // slides against the force
+      lambda[1] = 0.8; // slides with it: which the multipliers by themselves do not see
+      EXPECT_EQ(constraint(lambda, D) < 1e-9, method == ContactMethod::lagrange_multipliers);
+      lambda[1] = -1.;
+      EXPECT_GT(constraint(lambda, D), 0.1); // more than Coulomb's bound
       lambda = 0;
       D      = 0;
       D[0]   = 0.1;

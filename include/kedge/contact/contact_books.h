@@ -6,6 +6,8 @@
 #include <kedge/grid/lattice.h>
 #include <kedge/surfaces/body_surface.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <string>
 #include <vector>
 
@@ -67,11 +69,25 @@ namespace kedge
     Ledger::Index force[dim], moment[3];
   };
 
-  /** What a contact between surfaces says of itself in the books. */
+  /**
+   * What a contact between surfaces says of itself in the books. All ranks know all places; one of
+   * them, which keeps the books, passes them on.
+   */
   template <int dim>
   class ContactBooks
   {
   public:
+    /** @param communicator of all ranks that know the places */
+    explicit ContactBooks(const MPI_Comm &communicator)
+      : kept_here(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    {}
+
+    bool
+    are_kept_here() const
+    {
+      return kept_here;
+    }
+
     void
     declare(Ledger &ledger, const std::string &pair);
 
@@ -98,6 +114,7 @@ namespace kedge
       Ledger::Index energy, friction, released, area, stick_area, pressure, overlap, duration;
     };
 
+    const bool          kept_here;
     Columns             columns{};
     ResultantBooks<dim> resultant{};
   };

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <limits>
+
 namespace kedge
 {
   /** What two surfaces that touch do to each other, per reference area. */
@@ -15,6 +17,7 @@ namespace kedge
     double tangent_stiffness = 0.; ///< eps_t [Pa/m]
     double friction          = 0.; ///< mu [-]
     double adhesion          = 0.; ///< a, the shear stress that is borne without pressure [Pa]
+    double shear_limit = std::numeric_limits<double>::infinity(); ///< of the shear stress [Pa]
 
     /** Part of the step at which the balance stands. */
     double alpha = 0.5;
@@ -73,6 +76,7 @@ namespace kedge
     dealii::Tensor<1, dim> slip_end;            ///< e_1, the elastic part of the slip [m]
     double                 dissipation = 0.;    ///< by friction in the step [J/m^2]
     bool                   sticks      = false; ///< held by friction; else it slides, or is open
+    dealii::Tensor<1, dim> traction_by_pore_pressure; ///< d traction / d p_w [-]
   };
 
   /**
@@ -81,9 +85,11 @@ namespace kedge
    * the gap over the step, nearly n: g_1 = g_0 + s.D, and p acts along s. With
    * D_t = D - n (n.D) and e the elastic slip, in the plane across n,
    *   t = -eps_t e_alpha,  e_alpha = e_0 + alpha D_t,
-   * scaled back to |t| <= mu p + a; sliding, e_alpha = -t / eps_t and e_1 = e_0 + (e_alpha - e_0) /
-   * alpha. With alpha = 1/2, t.D_t = -eps_t (|e_1|^2 - |e_0|^2) / 2 - (what friction dissipates).
-   * An open contact (p = 0) forgets its elastic slip, whose energy is dissipated.
+   * scaled back to |t| <= tau = min(mu <p - p_w> + a, tau_max), p_w the pressure of the pore water
+   * there: the surfaces carry p, and friction acts on what the grains carry of it; sliding, e_alpha
+   * = -t / eps_t and e_1 = e_0 + (e_alpha - e_0) / alpha. With alpha = 1/2, t.D_t = -eps_t (|e_1|^2
+   * - |e_0|^2) / 2 - (what friction dissipates). An open contact (p = 0) forgets its elastic slip,
+   * whose energy is dissipated.
    */
   template <int dim>
   ContactResponse<dim>
@@ -93,18 +99,8 @@ namespace kedge
                    const double                  gap_n,
                    const dealii::Tensor<1, dim> &slip_n,
                    const double                  multiplier,
-                   const dealii::Tensor<1, dim> &D);
-
-  /**
-   * By how far multipliers of a place at rest (a pressure, and the slip of what sticks) are not
-   * those of its answer: its gap, or by how much it creeps [m].
-   */
-  template <int dim>
-  double
-  violation(const ContactLaw             &law,
-            const double                  multiplier,
-            const dealii::Tensor<1, dim> &slip_n,
-            const ContactResponse<dim>   &response);
+                   const dealii::Tensor<1, dim> &D,
+                   const double                  pore_pressure = 0.);
 
   /** d traction / dD of a place that is closed and sticks. */
   template <int dim>

@@ -15,6 +15,7 @@ namespace kedge
   {
     const BodySurface<dim> *first, *second;
     double                  normal_stiffness, tangent_stiffness; ///< [Pa/m]
+    std::array<bool, 2>     carry_water = {{false, false}};      ///< whether they are saturated
   };
 
   /**
@@ -27,7 +28,7 @@ namespace kedge
    * a little.
    *
    * Without inertia the balance is that of the step's end, and the pressures are found by Uzawa's
-   * iteration, lambda <- <lambda - eps g>, until no closed sample has more than a small gap.
+   * iteration, cell by cell (CellMultipliers), until gaps are small in the mean of each cell.
    */
   template <int dim>
   class ContactTerm
@@ -117,7 +118,15 @@ namespace kedge
     using Memory = std::map<unsigned int, typename SurfaceSamples<dim>::Memory>;
 
     MovingSurface<dim> &
-    moving(const BodySurface<dim> &surface);
+    moving(const BodySurface<dim> &surface, const bool carries_water);
+    void
+    read_pore_pressures(const Trial<dim> &trial);
+    void
+    add_pressure_slope(const SurfaceSamples<dim>                     &half,
+                       const typename SurfaceSamples<dim>::Sample    &sample,
+                       const typename CouplingSum<dim>::Coefficients &forces,
+                       const dealii::Tensor<1, dim>                  &by_pressure,
+                       CouplingSum<dim>                              &sum) const;
     std::vector<Forces>
     sample_forces() const;
     bool

@@ -20,6 +20,15 @@ namespace kedge
     void
     add(const Coefficients &coefficients, const dealii::Tensor<2, dim> &matrix);
 
+    /**
+     * Adds B^T a E, E = [e_1, e_2 ..] the coefficients of pore pressures: how forces at some nodes
+     * depend on the pressures at others.
+     */
+    void
+    add_by_pressure(const Coefficients           &forces,
+                    const Coefficients           &pressures,
+                    const dealii::Tensor<1, dim> &vector);
+
     /** Adds the sums to a tangent. */
     void
     add_to(Tangent<dim> &tangent) const;
@@ -27,7 +36,11 @@ namespace kedge
   private:
     using Nodes = std::vector<std::pair<unsigned int, unsigned int>>;
 
-    std::map<Nodes, std::vector<dealii::Tensor<2, dim>>> blocks; ///< row by row
+    static Nodes
+    nodes_of(const Coefficients &coefficients);
+
+    std::map<Nodes, std::vector<dealii::Tensor<2, dim>>>                   blocks; ///< row by row
+    std::map<std::pair<Nodes, Nodes>, std::vector<dealii::Tensor<1, dim>>> by_pressure;
   };
 } // namespace kedge
 

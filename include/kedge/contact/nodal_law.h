@@ -59,12 +59,17 @@ namespace kedge
    *   F = -p n + P,   P = t where |t| <= mu p, else mu p t/|t|,
    * where the pressure p [N] and the trial force t along the surface are
    *   penalty               p = [r g]_-,             t = -r D_t                (5.105), (5.106)
-   *   non-linear penalty    p = [p(g)]_-,            no friction               (5.108)
+   *   non-linear penalty    p = [p(g)]_-,            t = -r D_t                (5.108)
    *   augmented Lagrangian  p = [lambda_n + r g]_-,  t = lambda_t - r D_t      (5.71), (5.72)
-   *   multipliers           p = [lambda_n]_-,        no friction               (5.100)
-   * with [a]_- = -a for a <= 0, else 0. The augmented Lagrangian's constraint is C = lambda - F
-   * (5.80); that of the multipliers is the same in each state, which the multipliers alone choose:
-   * in print (5.103) it says nothing of the gap, and (5.48) says this.
+   *   multipliers           p = [lambda_n]_-,        t = lambda_t               (5.100), (5.101)
+   * with [a]_- = -a for a <= 0, else 0. Sliding of the non-linear penalty begins at c_3, up to
+   * which (5.114) is the linear one: what it says of larger slips is scaled back. The augmented
+   * Lagrangian's constraint is C = lambda - F (5.80); that of the multipliers is the same in each
+   * state, which the multipliers alone choose: in print (5.103) it says nothing of the gap and of
+   * what sticks, and (5.48) says this,
+   *   closed   C_n = -r g,   sticks   C_t = r D_t,
+   *   slides   C_t = m (|lambda_t| - mu p) + r (I - m m) D_t,   m = lambda_t/|lambda_t|,
+   * the last part so that a slip in space has the direction of its force.
    *
    * @param n_directions the normal and those along the surface in which friction acts
    * @param multiplier   lambda [N]; 0 for penalties

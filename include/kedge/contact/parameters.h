@@ -1,6 +1,7 @@
 #ifndef kedge_contact_parameters_h
 #define kedge_contact_parameters_h
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,9 @@ namespace kedge
     std::string              name;
     std::vector<std::string> first, second; ///< bodies of each group
     ContactMethod            method         = ContactMethod::none;
-    double                   friction       = 0.; ///< mu [-]
-    double                   adhesion       = 0.; ///< [Pa]
+    double                   friction       = 0.;                                      ///< mu [-]
+    double                   adhesion       = 0.;                                      ///< [Pa]
+    double                   shear_limit    = std::numeric_limits<double>::infinity(); ///< [Pa]
     double                   penalty_factor = 2.; ///< beta of eps = beta M / h, or of (5.105) [-]
     double                   spacing        = 0.; ///< of the surfaces' points [m]; 0: h/5
 

@@ -11,19 +11,22 @@ namespace kedge
   template <int dim>
   struct MovingSurface
   {
-    explicit MovingSurface(const BodySurface<dim> &surface)
+    /** @param carries_water whether the body is saturated */
+    MovingSurface(const BodySurface<dim> &surface, const bool carries_water)
       : surface(surface)
+      , carries_water(carries_water)
     {}
 
     /** Takes the displacements over the step; the mesh is then where @p part of them leads to. */
     void
     move(const std::vector<dealii::Tensor<1, dim>> &displacements, const double part);
 
-
     const BodySurface<dim>             &surface;
-    SurfaceMesh<dim>                    mesh;          ///< in the configuration of the balance
-    SurfaceMesh<dim>                    end;           ///< at the end of the step
-    std::vector<dealii::Tensor<1, dim>> displacements; ///< of the vertices over the step [m]
+    const bool                          carries_water;
+    std::vector<double>                 pore_pressures; ///< at the vertices, of the balance [Pa]
+    SurfaceMesh<dim>                    mesh;           ///< in the configuration of the balance
+    SurfaceMesh<dim>                    end;            ///< at the end of the step
+    std::vector<dealii::Tensor<1, dim>> displacements;  ///< of the vertices over the step [m]
   };
 
   /**
@@ -131,6 +134,45 @@ namespace kedge
     dealii::Tensor<1, dim>
     relative_displacement(const Sample &sample) const;
 
+    /** Whether what a sample adds to the tangent is this rank's to add; all know all samples. */
+    bool
+    is_added_here(const Sample &sample) const
+    {
+      return sampled.surface.owns(sampled.mesh.facets[sample.facet][0]);
+    }
+
+    /** Whether there is pore water at the samples, on this side or on the other. */
+    bool
+    has_water() const
+    {
+      return sampled.carries_water || other.carries_water;
+    }
+
+    /** Calls visit(surface, vertex, e): the pore pressure at a sample is the sum of e p. */
+    template <typename Visit>
+    void
+    for_pore_pressures(const Sample &sample, const Visit &visit) const
+    {
+      if (sampled.carries_water)
+        for (const unsigned int v : sampled.mesh.facets[sample.facet])
+          visit(sampled, v, 1. / dim);
+      else if (other.carries_water)
+        for (int i = 0; i < dim; ++i)
+          visit(other, other.mesh.facets[sample.partner.facet][i], sample.partner.weights[i]);
+    }
+
+    /** Pressure of the pore water at a sample; 0 if neither side has any [Pa]. */
+    double
+    pore_pressure(const Sample &sample) const
+    {
+      double p = 0.;
+      for_pore_pressures(sample,
+                         [&](const MovingSurface<dim> &side, const unsigned int v, const double e) {
+                           p += side.pore_pressures.empty() ? 0. : e * side.pore_pressures[v];
+                         });
+      return p;
+    }
+
     ContactResponse<dim>
     response(const Sample &sample) const
     {
@@ -140,7 +182,8 @@ namespace kedge
                               sample.gap_n,
                               sample.slip_n,
                               sample.multiplier,
-                              relative_displacement(sample));
+                              relative_displacement(sample),
+                              pore_pressure(sample));
     }
 
     Outcome

@@ -28,6 +28,7 @@ namespace kedge
   {
     const BodySurface<dim> *surface;
     double                  normal_stiffness, tangent_stiffness; ///< [Pa/m]
+    bool                    carries_water = false;               ///< whether it is saturated
   };
 
   /**
@@ -126,8 +127,10 @@ namespace kedge
     {
       const BodySurface<dim>             *surface;
       ContactLaw                          law;
+      bool                                carries_water;
       std::vector<Sample>                 samples;
-      std::vector<dealii::Tensor<1, dim>> displacements; ///< of the vertices
+      std::vector<dealii::Tensor<1, dim>> displacements;  ///< of the vertices
+      std::vector<double>                 pore_pressures; ///< of the vertices, of the balance [Pa]
       Memory                              memory, end_of_step;
     };
 

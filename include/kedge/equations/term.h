@@ -75,6 +75,14 @@ namespace kedge
     declare_books(Ledger &)
     {}
 
+    /**
+     * Flags nodes of a field that other ranks' points reach and that this rank must know, with
+     * what they are tied to, one entry per window node (collective).
+     */
+    virtual void
+    claim(const unsigned int /*field*/, std::vector<unsigned char> &)
+    {}
+
     /** Flags nodes of a field beyond those that points reach, one entry per window node. */
     virtual void
     reach(const unsigned int /*field*/, std::vector<unsigned char> &)

@@ -41,10 +41,10 @@ namespace kedge
     /**
      * Reads the points of a new configuration, finds ties, nodes and constraints
      * (collective). @p reach adds nodes that terms need although no point
-     * reaches them.
+     * reaches them, @p claim before that nodes that points of other ranks reach.
      */
     void
-    reinit(const MaterialPoints<dim> &cloud, const Reach &reach);
+    reinit(const MaterialPoints<dim> &cloud, const Reach &reach, const Reach &claim = {});
 
     /** How long the step is, for laws that depend on the rate [s]. */
     void

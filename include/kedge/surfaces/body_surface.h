@@ -19,7 +19,7 @@ namespace kedge
    * have all once the body has no points left. They stay where they were and act on nothing.
    *
    * Every rank holds the whole surface. The nodes of a root cell, and with them the vertices that
-   * follow it, are known to the rank that owns the cell.
+   * follow it, are known to the rank that owns the cell; if claim_nodes() has been called, to all.
    */
   template <int dim>
   class BodySurface
@@ -55,6 +55,13 @@ namespace kedge
     /** Takes its vertices and facets. */
     void
     seed(const SurfaceMesh<dim> &seeded);
+
+    /**
+     * Flags the nodes of all root cells in the configuration that the patch has just read, one
+     * entry per node of the window, so that this rank knows the nodes of all vertices (collective).
+     */
+    void
+    claim_nodes(std::vector<unsigned char> &reached);
 
     /** Finds the root cells in the configuration that the patch has just read, and the facets that
      * have left (collective). */
@@ -92,10 +99,34 @@ namespace kedge
     interpolate(const std::vector<double>           &nodal,
                 std::vector<dealii::Tensor<1, dim>> &at_vertices) const;
 
+    /**
+     * The last component of the unknowns of a saturated field, its pore pressure, at the
+     * vertices [Pa] (collective).
+     */
+    void
+    interpolate_pressure(const std::vector<double> &unknowns,
+                         std::vector<double>       &at_vertices) const;
+
     /** Calls visit(local node, N) for the corners of a vertex's root cell, if this rank owns it. */
     template <typename Visit>
     void
     for_nodes(const unsigned int vertex, const Visit &visit) const
+    {
+      if (owns(vertex))
+        for_nodes_anywhere(vertex, visit);
+    }
+
+    /** Whether this rank owns a vertex's root cell. */
+    bool
+    owns(const unsigned int vertex) const
+    {
+      return is_own[vertex];
+    }
+
+    /** The same if this rank knows the root cell. */
+    template <typename Visit>
+    void
+    for_nodes_anywhere(const unsigned int vertex, const Visit &visit) const
     {
       if (root_of_vertex[vertex] == elsewhere)
         return;
@@ -129,7 +160,7 @@ namespace kedge
   private:
     using Corners = std::array<unsigned int, n_corners>;
 
-    /** The root of a vertex that belongs to another rank. */
+    /** The root of a vertex whose nodes are not known to this rank. */
     static constexpr unsigned int elsewhere = static_cast<unsigned int>(-1);
 
     std::vector<double>
@@ -148,7 +179,9 @@ namespace kedge
     std::vector<double>                        reference_areas;
     std::vector<Corners>                       roots; ///< local nodes of the root cells in use here
     std::vector<unsigned int>                  root_of_vertex;
-    std::vector<std::array<double, n_corners>> weights; ///< of each vertex
+    std::vector<bool>                          is_own; ///< by vertex: the root cell is this rank's
+    bool                                       is_known = false; ///< claimed: roots of all vertices
+    std::vector<std::array<double, n_corners>> weights;          ///< of each vertex
   };
 } // namespace kedge
 

@@ -45,6 +45,10 @@ namespace kedge
       return "surface of body '" + surface_.body_name + "'";
     }
 
+    /** Contact couples any two places of the surface: each rank must know the nodes of all. */
+    void
+    claim(const unsigned int field, std::vector<unsigned char> &reached) override;
+
     /** @throws UserError if the body has no surface within the grid */
     void
     attach(std::vector<GeneratedPoint<dim>> &points) override;
