@@ -285,7 +285,7 @@ namespace kedge
                const std::optional<std::filesystem::path> &folder)
   {
     std::vector<Shape<dim>> pieces;
-    for (const Term &term : split_terms(description))
+    for (const SignedShape &term : split_terms(description))
       {
         const auto shape = parse_term<dim>(term.text, constants, folder);
         if (pieces.empty() || term.sign == '+')
