@@ -14,12 +14,9 @@ namespace kedge
      */
     constexpr double lumped_shift = 1e-13;
 
-    /**
-     * Corrections end at this part of the solution's energy, or at this number: a matrix that is
-     * singular to working precision lets each take no more than a part of what is missing.
-     */
+    /** Corrections end at this part of the solution's energy, or at this number. */
     constexpr double       relative_tolerance = 1e-15;
-    constexpr unsigned int most_corrections   = 100;
+    constexpr unsigned int most_corrections   = 7;
 
     /** Conjugate gradients end at this part of the defect's norm, first and later, or give up. */
     constexpr double       first_tolerance = 1e-9;
