@@ -145,6 +145,8 @@ TEST(NodalContactScene, RefusesWhatTheMethodDoesNotKnow)
   };
   expect_parts(refusal("penalty", "Adhesion = 3"),
                {"Contact/blocks/Adhesion", "Method = penalty", "surface points"});
+  expect_parts(refusal("penalty", "Shear limit = 3"),
+               {"Contact/blocks/Shear limit", "Method = penalty", "surface points"});
   expect_parts(refusal("augmented lagrangian", "Surface spacing = 0.1"),
                {"Contact/blocks/Surface spacing", "does not know"});
   expect_parts(refusal("contact velocity", "Penalty factor = 2"),
