@@ -103,7 +103,7 @@ def reference(arg, output):
 def interrupted(arg, output, first_row, whole):
     """Kills and resumes until the run is through and was killed often enough."""
     rng = random.Random(arg.seed)
-    longest = first_row + 3 * (whole - first_row) / arg.kills
+    shortest, longest = 0.2 * first_row, first_row + 3 * (whole - first_row) / arg.kills
     killed = resumed = finished = 0
     shutil.rmtree(output, ignore_errors=True)
     while True:
@@ -119,9 +119,11 @@ def interrupted(arg, output, first_row, whole):
         ended = False
         while killed > 0 and not ended and not has_checkpoint(output):
             ended = run.finish(0.01) # a kill before the first checkpoint proves little: once
-        if ended or run.finish(rng.uniform(0.2 * first_row, longest)):
+        if ended or run.finish(rng.uniform(shortest, longest)):
             compare(arg, output)
             finished = 1
+            # the uninterrupted run may have had less of the machine
+            shortest, longest = 0.8 * shortest, 0.8 * longest
         else:
             run.kill()
             killed += 1
