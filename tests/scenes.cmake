@@ -136,6 +136,18 @@ kedge_add_scene_test(scene.undrained_cylinder.coarse tests/scenes/undrained_cyli
 # a saturated block that moves by a millionth of a cell: stresses of round-off, whose residual is none
 kedge_add_scene_test(scene.hardly_moves benchmarks/stability/saturated_block.prm
   SET "Constants/shift = 1e-6" "Constants/w = 1e-8*M" EXPECT_STDOUT "finished at t = .* after 35 steps")
+kedge_add_scene_test(scene.two_layers prm/two_layers.prm COMPARE_RANKS 1e-7)
+# the scene can fail: without its own conductivity the crust lets through what the silt does
+kedge_add_scene_test(scene.two_layers.one_conductivity prm/two_layers.prm
+  SET "Materials/crust/Hydraulic conductivity = " "Pore fluid/Hydraulic conductivity = k_1"
+    "Time/End = T1*s" EXPECT_EXIT 2
+  EXPECT_STDOUT "FAIL pressure at the interface while it consolidates" EXPECT_STDERR "^$")
+kedge_add_scene_test(refusal.conductivity_of_a_layer prm/two_layers.prm
+  SET "Materials/crust/Hydraulic conductivity = " EXPECT_EXIT 1
+  EXPECT_STDERR "Pore fluid/Hydraulic conductivity.*here or of Materials/crust" LABELS refusal)
+kedge_add_scene_test(refusal.conductivity_law_of_a_layer prm/two_layers.prm
+  SET "Materials/crust/Conductivity law = kozeny" EXPECT_EXIT 1
+  EXPECT_STDERR "Materials/crust/Conductivity law.*kozeny-carman" LABELS refusal)
 kedge_add_scene_test(scene.seepage_face prm/seepage_face.prm COMPARE_RANKS 1e-7)
 # the scene can fail: with water that may come in the second stage is another
 kedge_add_scene_test(scene.seepage_face.both_ways prm/seepage_face.prm

@@ -114,6 +114,11 @@ namespace kedge
           return body.body_force;
         }))
       idle.add({"Body force"}, {"Acceleration"}, "on bodies with Body force = false.");
+    if (!scene.pore_fluid)
+      for (const MaterialParameters &material : scene.materials)
+        idle.add({"Materials", material.name},
+                 {"Hydraulic conductivity", "Conductivity law"},
+                 "without a Pore fluid.");
     add_of_contact(reader, scene.contacts, idle);
     for (std::size_t m = 0; m < scene.materials.size(); ++m)
       if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const auto &body) {

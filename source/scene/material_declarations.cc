@@ -26,7 +26,7 @@ namespace kedge
       return result;
     }
 
-    /** Two moduli, in one of two ways, and the porosity. */
+    /** Two moduli, in one of two ways, and the pores. */
     template <int dim>
     std::vector<EntryDeclaration>
     elasticity(const ValuePatterns<dim> &allow)
@@ -48,7 +48,16 @@ namespace kedge
               {"Initial porosity",
                "",
                allow.number(range(0, 1, false)).or_empty(),
-               "n_0, volume of the pores over that of the undeformed body, of soils [-]."}};
+               "n_0, volume of the pores over that of the undeformed body, of soils [-]."},
+              {"Hydraulic conductivity",
+               "",
+               positive,
+               "Of saturated soil at the initial porosity, kappa_0; nothing: that of the Pore "
+               "fluid [m/s]."},
+              {"Conductivity law",
+               "",
+               allow.one_of({"constant", "kozeny-carman"}).or_empty(),
+               "Of saturated soil; nothing: that of the Pore fluid."}};
     }
 
     template <int dim>

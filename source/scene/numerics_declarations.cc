@@ -102,8 +102,8 @@ namespace kedge
                {"Ghost conductivity factor",
                 "",
                 allow.number(NumberRange::not_negative()).or_empty(),
-                "ghost, in saturated bodies: of the penalty of pressures, over the conductivity "
-                "[-]; empty: 1e-3."},
+                "ghost, in saturated bodies: of the penalty of pressures, over the (least) "
+                "conductivity [-]; empty: 1e-3."},
                {"Ghost storage factor",
                 "",
                 allow.number(NumberRange::not_negative()).or_empty(),
@@ -136,7 +136,7 @@ namespace kedge
        {"Hydraulic conductivity",
         "",
         positive.or_empty(),
-        "At the initial porosity, kappa_0 [m/s]."},
+        "At the initial porosity, kappa_0, of all materials that have none of their own [m/s]."},
        {"Conductivity law",
         "constant",
         allow.one_of({"constant", "kozeny-carman"}),

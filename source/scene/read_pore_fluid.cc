@@ -62,17 +62,41 @@ namespace kedge
           .error("Lumping", "In saturated bodies (Pore fluid) the mass matrix must be consistent.");
     }
 
-    /** Which bodies the fluid is not in. */
+    /** What its material says of a body's pores, and where it says nothing the fluid. */
     template <int dim>
-    std::vector<bool>
-    read_dry_bodies(const ParameterReader &reader, const Scene<dim> &scene)
+    BodyPores
+    read_pores(const ParameterReader     &reader,
+               const Scene<dim>          &scene,
+               const BodyParameters<dim> &body)
     {
-      std::vector<bool> is_dry;
+      const std::string   conductivity = "Hydraulic conductivity", law = "Conductivity law";
+      const SectionReader fluid(reader, {"Pore fluid"});
+      const SectionReader material(reader, {"Materials", scene.materials[body.material].name});
+      const auto          of = [&](const std::string &entry) -> const SectionReader          &{
+        return material.is_empty(entry) ? fluid : material;
+      };
+      BodyPores pores;
+      pores.is_dry        = !SectionReader(reader, {"Bodies", body.name}).truth("Saturated");
+      pores.kozeny_carman = of(law).text(law) == "kozeny-carman";
+      if (!of(conductivity).is_empty(conductivity))
+        pores.hydraulic_conductivity = of(conductivity).number(conductivity);
+      else if (!pores.is_dry)
+        throw fluid.error(conductivity,
+                          "It must be given where there is a pore fluid, here or of Materials/" +
+                            scene.materials[body.material].name + ".");
+      return pores;
+    }
+
+    template <int dim>
+    std::vector<BodyPores>
+    read_bodies(const ParameterReader &reader, const Scene<dim> &scene)
+    {
+      std::vector<BodyPores> bodies;
       for (const auto &body : scene.bodies)
         {
           const SectionReader section(reader, {"Bodies", body.name});
-          is_dry.push_back(!section.truth("Saturated"));
-          if (!is_dry.back())
+          bodies.push_back(read_pores(reader, scene, body));
+          if (!bodies.back().is_dry)
             continue;
           const Expression pressure(body.initial_pore_pressure, {"x", "y", "z"}, scene.constants);
           if (!(pressure.is_constant() && pressure.value() == 0.))
@@ -87,10 +111,12 @@ namespace kedge
                                 "The ghost penalty couples pressures of all bodies; with dry ones "
                                 "take Stabilisation/Method = aggregation or none.");
         }
-      if (std::find(is_dry.begin(), is_dry.end(), false) == is_dry.end())
+      if (std::all_of(bodies.begin(), bodies.end(), [](const BodyPores &pores) {
+            return pores.is_dry;
+          }))
         throw SectionReader(reader, {"Pore fluid"})
           .error("Density", "No body is Saturated; leave the Pore fluid out.");
-      return is_dry;
+      return bodies;
     }
   } // namespace
 
@@ -109,17 +135,12 @@ namespace kedge
         check_dry(reader, scene);
         return {};
       }
-    if (section.is_empty("Hydraulic conductivity"))
-      throw section.error("Hydraulic conductivity",
-                          "It must be given where there is a pore fluid.");
     check_saturated(reader, scene);
 
     PorousParameters result;
-    result.fluid.fluid_density          = section.number("Density");
-    result.fluid.fluid_bulk_modulus     = section.number("Bulk modulus");
-    result.fluid.hydraulic_conductivity = section.number("Hydraulic conductivity");
-    result.fluid.kozeny_carman          = section.text("Conductivity law") == "kozeny-carman";
-    result.fluid.reference_gravity      = section.number("Reference gravity");
+    result.fluid.fluid_density      = section.number("Density");
+    result.fluid.fluid_bulk_modulus = section.number("Bulk modulus");
+    result.fluid.reference_gravity  = section.number("Reference gravity");
     result.fluid.porosity_watch =
       section.text("Lost porosity") == "stop" ? PorosityWatch::stop : PorosityWatch::warn;
     result.coarse_pressure = section.text("Pressure space") == "coarse";
@@ -137,7 +158,7 @@ namespace kedge
                                ? PressureMap::lumped
                                : PressureMap::consistent;
     result.surface_penalty = section.number("Surface penalty");
-    result.is_dry          = read_dry_bodies(reader, scene);
+    result.bodies          = read_bodies(reader, scene);
     return result;
   }
 

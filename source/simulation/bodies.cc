@@ -122,16 +122,18 @@ namespace kedge
         result.has_body_force.push_back(body.body_force && !scene.pore_fluid);
         if (!scene.pore_fluid)
           continue;
-        const double        G     = 0.5 * material.young_modulus / (1. + material.poisson_ratio);
-        PoreFluidParameters fluid = scene.pore_fluid->fluid;
-        fluid.initial_porosity    = material.initial_porosity;
+        const double        G        = 0.5 * material.young_modulus / (1. + material.poisson_ratio);
+        const BodyPores    &pores    = scene.pore_fluid->bodies[result.soils.size()];
+        PoreFluidParameters fluid    = scene.pore_fluid->fluid;
+        fluid.initial_porosity       = material.initial_porosity;
+        fluid.hydraulic_conductivity = pores.hydraulic_conductivity;
+        fluid.kozeny_carman          = pores.kozeny_carman;
         result.soils.push_back({PoreFluid(fluid),
                                 material.density,
                                 0.5 * scene.pore_fluid->stabilisation / G,
                                 body.body_force,
                                 0.});
-        const auto &is_dry = scene.pore_fluid->is_dry;
-        if (!is_dry.empty() && is_dry[result.soils.size() - 1])
+        if (pores.is_dry)
           result.soils.back().dry_storage = dry_storage / p_wave_modulus(result.materials.back());
         result.initial_pore_pressure.push_back(body.initial_pore_pressure);
       }

@@ -16,6 +16,8 @@
 #include <kedge/solid/support_term.h>
 #include <kedge/surfaces/surface_term.h>
 
+#include <algorithm>
+#include <limits>
 #include <set>
 
 namespace kedge
@@ -142,6 +144,21 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** The fluid as it flows in the body that lets least pass: what ghosts add is small in all. */
+    PoreFluidParameters
+    in_tightest_body(const PorousParameters &pores)
+    {
+      PoreFluidParameters fluid    = pores.fluid;
+      fluid.hydraulic_conductivity = std::numeric_limits<double>::max();
+      for (const BodyPores &body : pores.bodies)
+        fluid.hydraulic_conductivity =
+          std::min(fluid.hydraulic_conductivity, body.hydraulic_conductivity);
+      return fluid;
+    }
+  } // namespace
+
   template <int dim>
   void
   Model<dim>::choose_porous_terms(const unsigned int    field,
@@ -174,7 +191,7 @@ namespace kedge
                                                       *ghosts,
                                                       soil,
                                                       scene.stabilisation,
-                                                      scene.pore_fluid->fluid));
+                                                      in_tightest_body(*scene.pore_fluid)));
   }
 
   namespace
@@ -196,8 +213,7 @@ namespace kedge
     bool
     carries_water(const Scene<dim> &scene, const unsigned int body)
     {
-      return scene.pore_fluid &&
-             (scene.pore_fluid->is_dry.empty() || !scene.pore_fluid->is_dry[body]);
+      return scene.pore_fluid && !scene.pore_fluid->bodies[body].is_dry;
     }
 
     /** How stiff the contact of two bodies is: eps = beta M / h, eps_t by Mindlin's ratio. */

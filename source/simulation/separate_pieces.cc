@@ -53,10 +53,10 @@ namespace kedge
   with_separate_pieces(Scene<dim> scene)
   {
     const auto whole = scene.bodies;
-    const auto dry   = scene.pore_fluid ? scene.pore_fluid->is_dry : std::vector<bool>();
+    const auto pores = scene.pore_fluid ? scene.pore_fluid->bodies : std::vector<BodyPores>();
     scene.bodies.clear();
     if (scene.pore_fluid)
-      scene.pore_fluid->is_dry.clear();
+      scene.pore_fluid->bodies.clear();
     for (std::size_t b = 0; b < whole.size(); ++b)
       {
         std::vector<std::string> names;
@@ -73,8 +73,8 @@ namespace kedge
             piece.pieces.clear();
             names.push_back(piece.name);
             scene.bodies.push_back(piece);
-            if (!dry.empty())
-              scene.pore_fluid->is_dry.push_back(dry[b]);
+            if (scene.pore_fluid)
+              scene.pore_fluid->bodies.push_back(pores[b]);
           }
         if (n < 2)
           continue;

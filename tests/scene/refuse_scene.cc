@@ -215,6 +215,8 @@ TEST(SceneRead, SettingsWithoutEffectAreSaid)
                       "Materials/spare/Young's modulus = 1",
                       "Materials/spare/Poisson's ratio = 0"}),
                {"Materials/spare is the Material of no body"});
+  expect_parts(lines({"Materials/soft/Hydraulic conductivity = 1e-5"}),
+               {"Materials/soft/Hydraulic conductivity = 1e-5 has no effect without a Pore fluid"});
   expect_parts(message_of(full_scene, {"Bodies/beam/Initial pore pressure = 1e3"}),
                {"Bodies/beam/Initial pore pressure = 1e3", "The body is dry"});
 }

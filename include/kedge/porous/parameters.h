@@ -16,15 +16,23 @@ namespace kedge
     lumped
   };
 
+  /** How a body holds the fluid. */
+  struct BodyPores
+  {
+    bool   is_dry                 = false; ///< the fluid is not in it
+    double hydraulic_conductivity = 0;     ///< kappa_0 at the porosity of its material [m/s]
+    bool   kozeny_carman          = false; ///< kappa follows the porosity, else constant
+  };
+
   /** The fluid that saturates the bodies of a scene, and how its pressure is stabilised. */
   struct PorousParameters
   {
-    PoreFluidParameters fluid;                   ///< but the initial porosity, which a material has
+    PoreFluidParameters fluid;                   ///< but what differs from body to body
     bool                coarse_pressure = false; ///< whether it lives at the cells' corners alone
     double              stabilisation   = 1;     ///< of (4.179): tau = stabilisation/(2 G) [-]
     PressureMap         pressure_map    = PressureMap::consistent;
-    double surface_penalty = 10; ///< of SurfacePressures, times conductivity over cell size [-]
-    std::vector<bool> is_dry;    ///< one per body: whether the fluid is not in it; empty: in all
+    double surface_penalty = 10;   ///< of SurfacePressures, times conductivity over cell size [-]
+    std::vector<BodyPores> bodies; ///< one per body
   };
 
   /** A pore pressure on outer faces of a body. */
