@@ -76,6 +76,16 @@ kedge_add_scene_test(scene.cattaneo_mindlin prm/cattaneo_mindlin.prm)
 kedge_add_scene_test(scene.cattaneo_mindlin.nearly_sliding prm/cattaneo_mindlin.prm
   SET "Constants/q = 0.9")
 kedge_add_scene_test(scene.prism_sliding prm/prism_sliding.prm)
+# soft bodies: h = 1/2 is as far off finite elements as 0.63 %
+kedge_add_scene_test(scene.prism_soft prm/prism_soft.prm SET "Output/Points interval = 0")
+# the adhesion of clay, of the soil and of the place; the checkpoint knows from where depth counts
+kedge_add_scene_test(scene.block_on_clay prm/block_on_clay.prm SET "Output/Points interval = 0")
+kedge_add_scene_test(scene.block_on_clay.of_place prm/block_on_clay.prm
+  SET "Contact/sole/Shear limit = alpha*(s0 + k*(x + 1e-6*depth))" "Output/Points interval = 0")
+kedge_add_scene_test(scene.block_on_clay.ranks prm/block_on_clay.prm COMPARE_RANKS 1e-6
+  SET "Output/Points interval = 0" "Constants/G = 1e7")
+kedge_add_restart_test(scene.restart.shear_limit prm/block_on_clay.prm KILLS 1
+  SET "Output/Checkpoint every steps = 5" "Constants/G = 1e7")
 kedge_add_scene_test(scene.ball_and_ring prm/ball_and_ring.prm
   SET "Output/Points interval = 0")
 kedge_add_scene_test(scene.prisms_nodes.ray_tracing prm/prisms_nodes.prm

@@ -16,7 +16,6 @@ namespace kedge
     law.tangent_stiffness = tangent_stiffness;
     law.friction          = parameters.friction;
     law.adhesion          = parameters.adhesion;
-    law.shear_limit       = parameters.shear_limit;
     law.alpha             = scheme.contact_alpha();
     law.conserving        = scheme.conserves_contact();
     law.at_rest           = !scheme.dynamic;

@@ -1,6 +1,7 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/contact/contact_term.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace kedge
@@ -8,24 +9,26 @@ namespace kedge
   template <int dim>
   ContactTerm<dim>::ContactTerm(const ContactParameters               &parameters,
                                 const std::vector<ContactBodies<dim>> &bodies,
+                                const std::map<std::string, double>   &constants,
                                 const Scheme                          &scheme,
                                 const double                           cell_size)
     : parameters(parameters)
     , cell_size(cell_size)
     , alpha(scheme.contact_alpha())
     , at_rest(!scheme.dynamic)
+    , shear_limit(parameters, constants)
     , books(bodies.front().first->patch.grid().communicator())
   {
     for (const ContactBodies<dim> &pair : bodies)
       {
         const ContactLaw law =
           contact_law_of(parameters, pair.normal_stiffness, pair.tangent_stiffness, scheme);
-        const auto &first  = moving(*pair.first, pair.carry_water[0]),
-                   &second = moving(*pair.second, pair.carry_water[1]);
+        const auto &first = moving(pair, 0), &second = moving(pair, 1);
         for (const bool swapped : {false, true})
           passes.emplace_back(swapped ? second : first,
                               swapped ? first : second,
                               law,
+                              shear_limit,
                               0.5,
                               reach * cell_size,
                               largest_overlap * cell_size);
@@ -37,12 +40,14 @@ namespace kedge
 
   template <int dim>
   MovingSurface<dim> &
-  ContactTerm<dim>::moving(const BodySurface<dim> &surface, const bool carries_water)
+  ContactTerm<dim>::moving(const ContactBodies<dim> &pair, const unsigned int which)
   {
+    const BodySurface<dim> &surface = which == 0 ? *pair.first : *pair.second;
     for (auto &known : surfaces)
       if (&known->surface == &surface)
         return *known;
-    surfaces.push_back(std::make_unique<MovingSurface<dim>>(surface, carries_water));
+    surfaces.push_back(
+      std::make_unique<MovingSurface<dim>>(surface, pair.carry_water[which], pair.clay[which]));
     return *surfaces.back();
   }
 
@@ -56,6 +61,15 @@ namespace kedge
       surface->move(std::vector<dealii::Tensor<1, dim>>(surface->surface.n_vertices()), 0.);
     for (auto &half : passes)
       {
+        if (std::find(parameters.second.begin(),
+                      parameters.second.end(),
+                      half.sampled.surface.body_name) != parameters.second.end())
+          shear_limit.count_from(half.sampled.surface);
+      }
+    for (auto &half : passes)
+      {
+        shear_limit.check(half.sampled.surface,
+                          half.sampled.clay != nullptr || half.other.clay != nullptr);
         // what is deeper than the samples take must be seen as well
         const FacetSearch<dim> search(half.other.mesh, half.box_of_samples());
         for (unsigned int f = 0; f < half.sampled.mesh.facets.size(); ++f)
@@ -78,6 +92,19 @@ namespace kedge
             throw UserError(message.str());
           }
       }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactTerm<dim>::activate(const MaterialPoints<dim> &)
+  {
+    if (!shear_limit.is_of_place())
+      return;
+    for (auto &surface : surfaces)
+      if (surface->clay != nullptr)
+        surface->strengths = undrained_strengths(surface->surface, *surface->clay);
   }
 
 
@@ -388,6 +415,7 @@ namespace kedge
   void
   ContactTerm<dim>::save(SavedState &state) const
   {
+    state[name() + " top"] = {shear_limit.top};
     for (std::size_t k = 0; k < passes.size(); ++k)
       state[name() + " " + std::to_string(k)] = passes[k].save();
   }
@@ -398,6 +426,7 @@ namespace kedge
   void
   ContactTerm<dim>::restore(const SavedState &state)
   {
+    shear_limit.top = state.at(name() + " top").front();
     for (std::size_t k = 0; k < passes.size(); ++k)
       passes[k].restore(state.at(name() + " " + std::to_string(k)), !at_rest);
   }

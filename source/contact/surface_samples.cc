@@ -1,6 +1,7 @@
 #include <kedge/contact/surface_samples.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kedge
 {
@@ -106,6 +107,7 @@ namespace kedge
         sample.area  = share * sampled.surface.reference_area(f);
         if (!set_start(sample))
           continue;
+        sample.shear_limit = shear_limit_at(sample);
         if (law.conserving)
           tilt_to_end(search_end, sample);
         samples_.push_back(sample);
@@ -172,6 +174,31 @@ namespace kedge
     if (law.conserving)
       sample.gap_n = last.gap;
     return true;
+  }
+
+
+
+  /** By the weaker of the two soils that meet there. */
+  template <int dim>
+  double
+  SurfaceSamples<dim>::shear_limit_at(const Sample &sample) const
+  {
+    double strength = std::numeric_limits<double>::quiet_NaN();
+    if (!sampled.strengths.empty())
+      {
+        strength = 0.;
+        for (const unsigned int v : sampled.mesh.facets[sample.facet])
+          strength += sampled.strengths[v] / dim;
+      }
+    if (!other.strengths.empty())
+      {
+        double there = 0.;
+        for (int i = 0; i < dim; ++i)
+          there +=
+            sample.partner.weights[i] * other.strengths[other.mesh.facets[sample.partner.facet][i]];
+        strength = std::fmin(strength, there); // a number, if one of them is
+      }
+    return limit(place(sample), strength);
   }
 
 

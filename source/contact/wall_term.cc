@@ -8,16 +8,18 @@
 namespace kedge
 {
   template <int dim>
-  WallTerm<dim>::WallTerm(const ContactParameters          &parameters,
-                          const WallPlane<dim>             &plane,
-                          const std::vector<WallBody<dim>> &bodies,
-                          const Scheme                     &scheme,
-                          const double                      cell_size)
+  WallTerm<dim>::WallTerm(const ContactParameters             &parameters,
+                          const WallPlane<dim>                &plane,
+                          const std::vector<WallBody<dim>>    &bodies,
+                          const std::map<std::string, double> &constants,
+                          const Scheme                        &scheme,
+                          const double                         cell_size)
     : parameters(parameters)
     , plane(plane)
     , cell_size(cell_size)
     , alpha(scheme.contact_alpha())
     , at_rest(!scheme.dynamic)
+    , shear_limit(parameters, constants)
     , books(bodies.front().surface->patch.grid().communicator())
   {
     for (const WallBody<dim> &body : bodies)
@@ -25,6 +27,7 @@ namespace kedge
         Side side;
         side.surface       = body.surface;
         side.carries_water = body.carries_water;
+        side.clay          = body.clay;
         side.law =
           contact_law_of(parameters, body.normal_stiffness, body.tangent_stiffness, scheme);
         sides.push_back(side);
@@ -49,6 +52,10 @@ namespace kedge
   void
   WallTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
   {
+    for (const Side &side : sides)
+      shear_limit.count_from(*side.surface);
+    for (const Side &side : sides)
+      shear_limit.check(*side.surface, side.clay != nullptr);
     for (const Side &side : sides)
       for (unsigned int f = 0; f < side.surface->n_facets(); ++f)
         {
@@ -91,8 +98,29 @@ namespace kedge
           sample.start.gap = gap;
         else if (known == side.memory.end())
           sample.start.gap = std::max(gap, 0.);
+        double strength = std::numeric_limits<double>::quiet_NaN();
+        if (!side.strengths.empty())
+          {
+            strength = 0.;
+            for (const unsigned int v : side.surface->mesh().facets[f])
+              strength += side.strengths[v] / dim;
+          }
+        sample.shear_limit = shear_limit(x, strength);
         side.samples.push_back(sample);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  WallTerm<dim>::activate(const MaterialPoints<dim> &)
+  {
+    if (!shear_limit.is_of_place())
+      return;
+    for (Side &side : sides)
+      if (side.clay != nullptr)
+        side.strengths = undrained_strengths(*side.surface, *side.clay);
   }
 
 
@@ -144,7 +172,9 @@ namespace kedge
     if (!side.pore_pressures.empty())
       for (const unsigned int v : side.surface->mesh().facets[sample.facet])
         pore_pressure += side.pore_pressures[v] / dim;
-    return contact_response(side.law,
+    ContactLaw law  = side.law;
+    law.shear_limit = sample.shear_limit;
+    return contact_response(law,
                             plane.normal,
                             plane.normal,
                             sample.start.gap,
@@ -407,6 +437,7 @@ namespace kedge
   void
   WallTerm<dim>::save(SavedState &state) const
   {
+    state[name() + " top"] = {shear_limit.top};
     for (std::size_t k = 0; k < sides.size(); ++k)
       {
         auto &values = state[name() + " " + std::to_string(k)];
@@ -424,6 +455,7 @@ namespace kedge
   void
   WallTerm<dim>::restore(const SavedState &state)
   {
+    shear_limit.top             = state.at(name() + " top").front();
     constexpr std::size_t width = 3 + dim;
     for (std::size_t k = 0; k < sides.size(); ++k)
       {

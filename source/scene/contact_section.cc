@@ -1,4 +1,5 @@
 #include <kedge/base/exceptions.h>
+#include <kedge/base/expression.h>
 #include <kedge/base/nearest_name.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/values.h>
@@ -84,6 +85,20 @@ namespace kedge
         refuse("Penalty factor", text + " has no penalty. Leave one of the two out.");
     }
 
+    void
+    read_shear_limit(const SectionReader &section, ContactParameters &contact)
+    {
+      const std::string entry = "Shear limit";
+      if (section.is_empty(entry))
+        return;
+      contact.shear_limit = section.text(entry);
+      const Expression limit(contact.shear_limit, shear_limit_variables(), section.constants());
+      if (limit.is_constant() && !(limit.value() > 0.))
+        throw section.error(entry, "It must be greater than 0.");
+      if (contact.method == ContactMethod::none)
+        contact.method = ContactMethod::surface_points;
+    }
+
     /** The entries of a law; without a method each of them asks for one. */
     void
     read_law(const SectionReader &section, ContactParameters &contact)
@@ -97,7 +112,6 @@ namespace kedge
       const std::pair<const char *, double *> entries[] = {
         {"Friction coefficient", &contact.friction},
         {"Adhesion", &contact.adhesion},
-        {"Shear limit", &contact.shear_limit},
         {"Penalty factor", &contact.penalty_factor},
         {"Surface spacing", &contact.spacing}};
       for (const auto &[entry, value] : entries)
@@ -108,6 +122,7 @@ namespace kedge
           if (contact.method == ContactMethod::none)
             contact.method = ContactMethod::surface_points;
         }
+      read_shear_limit(section, contact);
     }
 
     /** A rigid plane, if the section has one. */
@@ -202,9 +217,10 @@ namespace kedge
         "Shear stress that a closed contact bears whatever its pressure [Pa]. Empty: 0."},
        {"Shear limit",
         "",
-        allow.number(Range::positive()).or_empty(),
-        "Largest shear stress of a contact whatever its pressure: in clay a part alpha of the "
-        "undrained strength [Pa]. Empty: none."},
+        allow.expression(shear_limit_variables(), "x, y, z, depth, s_u").or_empty(),
+        "Largest shear stress of a contact whatever its pressure [Pa], of the place at a step's "
+        "start, of depth below the top of Second at the run's start (with a Wall of First) [m], and of "
+        "s_u, the undrained strength of the soil there; less than 0 counts as 0. Empty: none."},
        {"Penalty factor",
         "",
         allow.number(Range::positive()).or_empty(),

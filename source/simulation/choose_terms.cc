@@ -216,6 +216,14 @@ namespace kedge
       return scene.pore_fluid && !scene.pore_fluid->bodies[body].is_dry;
     }
 
+    /** The material of a body if it has an undrained strength. */
+    const Material *
+    clay_of(const Bodies &bodies, const unsigned int body)
+    {
+      const Material &material = bodies.materials[body];
+      return has_undrained_strength(material) ? &material : nullptr;
+    }
+
     /** How stiff the contact of two bodies is: eps = beta M / h, eps_t by Mindlin's ratio. */
     template <int dim>
     ContactBodies<dim>
@@ -237,7 +245,8 @@ namespace kedge
               &second,
               stiffness,
               stiffness * (1. - poisson) / (1. - 0.5 * poisson),
-              {{carries_water(scene, first.body), carries_water(scene, second.body)}}};
+              {{carries_water(scene, first.body), carries_water(scene, second.body)}},
+              {{clay_of(bodies, first.body), clay_of(bodies, second.body)}}};
     }
 
     /** The same against a wall, which gives nothing: the harmonic mean is twice the body's. */
@@ -255,7 +264,8 @@ namespace kedge
       return {&surface,
               stiffness,
               stiffness * (1. - poisson) / (1. - 0.5 * poisson),
-              carries_water(scene, surface.body)};
+              carries_water(scene, surface.body),
+              clay_of(bodies, surface.body)};
     }
 
     template <int dim>
@@ -369,6 +379,7 @@ namespace kedge
               add_term(std::make_unique<WallTerm<dim>>(contact,
                                                        plane_of(contact, points.grid().lattice()),
                                                        touching,
+                                                       scene.constants,
                                                        scheme,
                                                        h));
               continue;
@@ -378,7 +389,7 @@ namespace kedge
             for (const std::string &second : contact.second)
               pairs.push_back(
                 contact_of(*surfaces.at(first), *surfaces.at(second), scene, bodies, contact, h));
-          add_term(std::make_unique<ContactTerm<dim>>(contact, pairs, scheme, h));
+          add_term(std::make_unique<ContactTerm<dim>>(contact, pairs, scene.constants, scheme, h));
         }
       else if (is_nodal(contact.method))
         choose_nodal_contact_term(contact);

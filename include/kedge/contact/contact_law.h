@@ -27,7 +27,8 @@ namespace kedge
     bool at_rest = false;
   };
 
-  /** The law of a section of Contact, with the stiffnesses of a pair of surfaces [Pa/m]. */
+  /** The law of a section of Contact, with the stiffnesses of a pair of surfaces [Pa/m]; its shear
+   * limit is of the place (ShearLimit). */
   ContactLaw
   contact_law_of(const ContactParameters &parameters,
                  const double             normal_stiffness,

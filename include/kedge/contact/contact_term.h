@@ -13,9 +13,10 @@ namespace kedge
   template <int dim>
   struct ContactBodies
   {
-    const BodySurface<dim> *first, *second;
-    double                  normal_stiffness, tangent_stiffness; ///< [Pa/m]
-    std::array<bool, 2>     carry_water = {{false, false}};      ///< whether they are saturated
+    const BodySurface<dim>         *first, *second;
+    double                          normal_stiffness, tangent_stiffness; ///< [Pa/m]
+    std::array<bool, 2>             carry_water = {{false, false}}; ///< whether they are saturated
+    std::array<const Material *, 2> clay        = {{nullptr, nullptr}}; ///< where it has an s_u
   };
 
   /**
@@ -53,10 +54,12 @@ namespace kedge
 
     /**
      * @param bodies    each of one group with each of the other
+     * @param constants of the scene's expressions
      * @param cell_size the smallest of the grid [m]
      */
     ContactTerm(const ContactParameters               &parameters,
                 const std::vector<ContactBodies<dim>> &bodies,
+                const std::map<std::string, double>   &constants,
                 const Scheme                          &scheme,
                 const double                           cell_size);
 
@@ -72,6 +75,9 @@ namespace kedge
     /** @throws UserError for bodies that overlap by more than a surface can have come by contact */
     void
     attach(std::vector<GeneratedPoint<dim>> &points) override;
+
+    void
+    activate(const MaterialPoints<dim> &points) override;
 
     void
     start(Trial<dim> &trial) override;
@@ -118,7 +124,7 @@ namespace kedge
     using Memory = std::map<unsigned int, typename SurfaceSamples<dim>::Memory>;
 
     MovingSurface<dim> &
-    moving(const BodySurface<dim> &surface, const bool carries_water);
+    moving(const ContactBodies<dim> &pair, const unsigned int which);
     void
     read_pore_pressures(const Trial<dim> &trial);
     void
@@ -146,6 +152,7 @@ namespace kedge
     const double                                     cell_size;
     const double                                     alpha; ///< part of the step of the balance
     const bool                                       at_rest;
+    ShearLimit<dim>                                  shear_limit;
     std::vector<std::unique_ptr<MovingSurface<dim>>> surfaces;
     std::vector<SurfaceSamples<dim>> passes; ///< first on second, second on first ..
     std::vector<Memory>              end_of_step;

@@ -1,7 +1,6 @@
 #ifndef kedge_contact_parameters_h
 #define kedge_contact_parameters_h
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +27,18 @@ namespace kedge
   }
 
   /**
+   * What the largest shear stress of a contact may depend on: the place in space at the start of
+   * the step (x, y, z) and how far below the highest one that the bodies of the second group, with
+   * a wall those of the first, had at the start of the run, along y, it is [m]; the undrained
+   * strength of the soil there, of two soils the smaller one [Pa].
+   */
+  inline std::vector<std::string>
+  shear_limit_variables()
+  {
+    return {"x", "y", "z", "depth", "s_u"};
+  }
+
+  /**
    * Two groups of bodies that may move apart: those of one group share no nodes
    * with those of the other. Without a law between them they pass through each other.
    */
@@ -35,10 +46,10 @@ namespace kedge
   {
     std::string              name;
     std::vector<std::string> first, second; ///< bodies of each group
-    ContactMethod            method         = ContactMethod::none;
-    double                   friction       = 0.;                                      ///< mu [-]
-    double                   adhesion       = 0.;                                      ///< [Pa]
-    double                   shear_limit    = std::numeric_limits<double>::infinity(); ///< [Pa]
+    ContactMethod            method   = ContactMethod::none;
+    double                   friction = 0.;       ///< mu [-]
+    double                   adhesion = 0.;       ///< [Pa]
+    std::string              shear_limit;         ///< of shear_limit_variables() [Pa]; empty: none
     double                   penalty_factor = 2.; ///< beta of eps = beta M / h, or of (5.105) [-]
     double                   spacing        = 0.; ///< of the surfaces' points [m]; 0: h/5
 

@@ -2,6 +2,7 @@
 #define kedge_contact_surface_samples_h
 
 #include <kedge/contact/contact_law.h>
+#include <kedge/contact/shear_limit.h>
 #include <kedge/surfaces/body_surface.h>
 #include <kedge/surfaces/facet_search.h>
 
@@ -11,10 +12,14 @@ namespace kedge
   template <int dim>
   struct MovingSurface
   {
-    /** @param carries_water whether the body is saturated */
-    MovingSurface(const BodySurface<dim> &surface, const bool carries_water)
+    /**
+     * @param carries_water whether the body is saturated
+     * @param clay          its material if that has an undrained strength, else a null pointer
+     */
+    MovingSurface(const BodySurface<dim> &surface, const bool carries_water, const Material *clay)
       : surface(surface)
       , carries_water(carries_water)
+      , clay(clay)
     {}
 
     /** Takes the displacements over the step; the mesh is then where @p part of them leads to. */
@@ -23,7 +28,9 @@ namespace kedge
 
     const BodySurface<dim>             &surface;
     const bool                          carries_water;
+    const Material                     *clay;
     std::vector<double>                 pore_pressures; ///< at the vertices, of the balance [Pa]
+    std::vector<double>                 strengths;      ///< at the vertices, s_u; empty: none [Pa]
     SurfaceMesh<dim>                    mesh;           ///< in the configuration of the balance
     SurfaceMesh<dim>                    end;            ///< at the end of the step
     std::vector<dealii::Tensor<1, dim>> displacements;  ///< of the vertices over the step [m]
@@ -49,11 +56,12 @@ namespace kedge
     {
       unsigned int                       facet; ///< of the sampled surface
       typename FacetSearch<dim>::Partner partner;
-      dealii::Tensor<1, dim>             gap_slope;  ///< s
-      double                             gap_n;      ///< g_0 [m]
-      dealii::Tensor<1, dim>             slip_n;     ///< e_0 [m]
-      double                             multiplier; ///< [Pa]
-      double                             area;       ///< that it stands for [m^2; m in 2D]
+      dealii::Tensor<1, dim>             gap_slope;   ///< s
+      double                             gap_n;       ///< g_0 [m]
+      dealii::Tensor<1, dim>             slip_n;      ///< e_0 [m]
+      double                             multiplier;  ///< [Pa]
+      double                             area;        ///< that it stands for [m^2; m in 2D]
+      double                             shear_limit; ///< there [Pa]
     };
 
     /** What is committed of a sample that is closed, or that cannot yet be measured as open. */
@@ -83,6 +91,7 @@ namespace kedge
     };
 
     /**
+     * @param limit of the shear stress; must last as long as this
      * @param share of the load that these samples bear
      * @param reach how far off partners are looked for [m]
      * @param depth a surface deeper in the other than this has not come there by contact [m]
@@ -90,12 +99,14 @@ namespace kedge
     SurfaceSamples(const MovingSurface<dim> &sampled,
                    const MovingSurface<dim> &other,
                    const ContactLaw         &law,
+                   const ShearLimit<dim>    &limit,
                    const double              share,
                    const double              reach,
                    const double              depth)
       : sampled(sampled)
       , other(other)
       , law(law)
+      , limit(limit)
       , share(share)
       , reach(reach)
       , depth(depth)
@@ -176,7 +187,9 @@ namespace kedge
     ContactResponse<dim>
     response(const Sample &sample) const
     {
-      return contact_response(law,
+      ContactLaw here  = law;
+      here.shear_limit = sample.shear_limit;
+      return contact_response(here,
                               sample.partner.normal,
                               sample.gap_slope,
                               sample.gap_n,
@@ -257,6 +270,8 @@ namespace kedge
 
     bool
     set_start(Sample &sample) const;
+    double
+    shear_limit_at(const Sample &sample) const;
     void
     tilt_to_end(const FacetSearch<dim> &search, Sample &sample) const;
     dealii::Point<dim>
@@ -269,6 +284,7 @@ namespace kedge
       return stored_in_contact(law, gap, multiplier, slip);
     }
 
+    const ShearLimit<dim>         &limit;
     const double                   share, reach, depth;
     std::vector<Sample>            samples_;
     std::map<unsigned int, Memory> memory; ///< committed, by facet

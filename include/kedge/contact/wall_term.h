@@ -2,7 +2,7 @@
 #define kedge_contact_wall_term_h
 
 #include <kedge/contact/contact_picture.h>
-#include <kedge/contact/parameters.h>
+#include <kedge/contact/shear_limit.h>
 #include <kedge/equations/term.h>
 #include <kedge/surfaces/body_surface.h>
 
@@ -29,6 +29,7 @@ namespace kedge
     const BodySurface<dim> *surface;
     double                  normal_stiffness, tangent_stiffness; ///< [Pa/m]
     bool                    carries_water = false;               ///< whether it is saturated
+    const Material         *clay          = nullptr;             ///< if it has an s_u
   };
 
   /**
@@ -54,11 +55,12 @@ namespace kedge
 
     static constexpr unsigned int most_updates = 40;
 
-    WallTerm(const ContactParameters          &parameters,
-             const WallPlane<dim>             &plane,
-             const std::vector<WallBody<dim>> &bodies,
-             const Scheme                     &scheme,
-             const double                      cell_size);
+    WallTerm(const ContactParameters             &parameters,
+             const WallPlane<dim>                &plane,
+             const std::vector<WallBody<dim>>    &bodies,
+             const std::map<std::string, double> &constants,
+             const Scheme                        &scheme,
+             const double                         cell_size);
 
     std::string
     name() const override
@@ -72,6 +74,9 @@ namespace kedge
     /** @throws UserError for bodies that lie behind the wall */
     void
     attach(std::vector<GeneratedPoint<dim>> &points) override;
+
+    void
+    activate(const MaterialPoints<dim> &points) override;
 
     void
     start(Trial<dim> &trial) override;
@@ -120,7 +125,8 @@ namespace kedge
       unsigned int       facet;
       dealii::Point<dim> place; ///< at the start of the step
       Closed             start;
-      double             area; ///< at the start of the run
+      double             area;             ///< at the start of the run
+      double             shear_limit = 0.; ///< there [Pa]
     };
 
     struct Side
@@ -128,6 +134,8 @@ namespace kedge
       const BodySurface<dim>             *surface;
       ContactLaw                          law;
       bool                                carries_water;
+      const Material                     *clay;
+      std::vector<double>                 strengths; ///< of the vertices, s_u; empty: none [Pa]
       std::vector<Sample>                 samples;
       std::vector<dealii::Tensor<1, dim>> displacements;  ///< of the vertices
       std::vector<double>                 pore_pressures; ///< of the vertices, of the balance [Pa]
@@ -157,6 +165,7 @@ namespace kedge
     const WallPlane<dim>           plane;
     const double                   cell_size, alpha;
     const bool                     at_rest;
+    ShearLimit<dim>                shear_limit;
     std::vector<Side>              sides;                    ///< one per body
     std::vector<ContactPlace<dim>> places, committed_places; ///< of the attempt, of the last step
     double            released  = 0.; ///< energy of samples that no longer look here [J]
