@@ -40,10 +40,12 @@ MAY_INCLUDE["surfaces"] = MAY_INCLUDE["equations"] | {"equations"}
 MAY_INCLUDE["solid"] = MAY_INCLUDE["transfer"] | {"transfer", "surfaces"}
 # the skeleton of a soil is a solid
 MAY_INCLUDE["porous"] = MAY_INCLUDE["solid"] | {"solid"}
-MAY_INCLUDE["contact"] = MAY_INCLUDE["solid"]
+# forces on rigid bodies share their columns with those on others
+MAY_INCLUDE["rigid"] = MAY_INCLUDE["solid"] | {"solid"}
+MAY_INCLUDE["contact"] = MAY_INCLUDE["rigid"] | {"rigid"}
 # scene sees nothing of the rooms but their parameters
 MAY_INCLUDE["scene"] = set()
-MAY_INCLUDE["io"] = MAY_INCLUDE["porous"] | {"scene", "porous", "contact"}
+MAY_INCLUDE["io"] = MAY_INCLUDE["porous"] | {"scene", "porous", "rigid", "contact"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) | {"io", "scene"}
 # binds what main.cc uses, too
 MAY_INCLUDE["python"] = {"simulation", "io", "scene"}

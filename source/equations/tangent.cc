@@ -22,7 +22,7 @@ namespace kedge
     for (unsigned int f = 0; f < blocks.size(); ++f)
       {
         const Patch<dim> &patch = *patches[f];
-        if (!patch.new_pattern())
+        if (!patch.new_pattern() && !rank_begin.empty())
           continue;
         any = true;
         blocks[f].matrix.reinit(patch.nodes.n_local(), unknowns.fields[f].n_components, radius[f]);

@@ -100,6 +100,8 @@ def draw_bodies(arg, runs, output):
             print(f"{run.folder} has no points.pvd: no picture of the body (Output/Formats = vtu, "
                   "Output/Points interval)", file=sys.stderr)
             continue
+        if "n_points" in run.history and run.history["n_points"][0] == 0: # rigid bodies alone
+            continue
         arg.time_unit = style.time_unit(run.history["time"][-1], arg.time_unit)
         for field in arg.field or [None]:
             picture = BodyPicture(run, field, arg)

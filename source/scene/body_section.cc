@@ -68,7 +68,7 @@ namespace kedge
         bodies.push_back(body);
       });
     errors.throw_if_any();
-    if (bodies.empty())
+    if (bodies.empty() && reader.names("Rigid bodies").empty())
       throw UserError(reader.place({"Bodies"}, "") +
                       ": the scene has no body; add a subsection Bodies/<name>.");
     return bodies;

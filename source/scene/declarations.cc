@@ -6,6 +6,7 @@
 #include <kedge/scene/material_declarations.h>
 #include <kedge/scene/numerics_declarations.h>
 #include <kedge/scene/output_declarations.h>
+#include <kedge/scene/rigid_section.h>
 #include <kedge/scene/value_pattern.h>
 
 #include <utility>
@@ -32,6 +33,8 @@ namespace kedge
                                                     declare_materials(allow),
                                                     declare_pore_fluid<dim>(allow),
                                                     declare_bodies(allow),
+                                                    declare_rigid_bodies(allow),
+                                                    declare_lines(allow),
                                                     declare_contact(allow),
                                                     node_conditions(),
                                                     declare_body_conditions(allow),
@@ -124,8 +127,14 @@ namespace kedge
                   per_direction("0", ", "),
                   allow.vector(),
                   "Corner with the lowest x, y, z [m]."},
-                 {"Extent", required, allow.vector(Range::positive()), "Lengths of the edges [m]."},
-                 {"Cells", required, allow.counts(false), "Number of cells per direction [-]."},
+                 {"Extent",
+                  "",
+                  allow.vector(Range::positive()).or_empty(),
+                  "Lengths of the edges [m]; empty: for scenes of Rigid bodies alone."},
+                 {"Cells",
+                  "",
+                  allow.counts(false).or_empty(),
+                  "Number of cells per direction [-]; empty: likewise."},
                  {"Open sides",
                   "",
                   allow.sides().or_empty(),

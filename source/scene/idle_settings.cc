@@ -110,9 +110,11 @@ namespace kedge
     for (const auto &body : scene.bodies)
       if (!scene.pore_fluid)
         idle.add({"Bodies", body.name}, {"Saturated"}, "without a Pore fluid.");
-    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &body) {
-          return body.body_force;
-        }))
+    const auto feels_it = [](const auto &body) {
+      return body.body_force;
+    };
+    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), feels_it) &&
+        std::none_of(scene.rigid_bodies.begin(), scene.rigid_bodies.end(), feels_it))
       idle.add({"Body force"}, {"Acceleration"}, "on bodies with Body force = false.");
     if (!scene.pore_fluid)
       for (const MaterialParameters &material : scene.materials)

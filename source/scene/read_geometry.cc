@@ -53,7 +53,8 @@ namespace kedge
   std::shared_ptr<Geometry<dim>>
   read_geometry(const SectionReader         &section,
                 const GridParameters<dim>   &grid,
-                const std::filesystem::path &folder)
+                const std::filesystem::path &folder,
+                const BodyExtent             extent)
   {
     std::shared_ptr<Geometry<dim>> geometry;
     try
@@ -65,7 +66,8 @@ namespace kedge
       {
         throw section.error("Geometry", error.what());
       }
-    check_inside_grid(section, *geometry, grid);
+    if (extent == BodyExtent::in_grid)
+      check_inside_grid(section, *geometry, grid);
     return geometry;
   }
 
@@ -83,7 +85,13 @@ namespace kedge
   template std::vector<std::shared_ptr<Geometry<3>>>
   read_pieces(const SectionReader &, const GridParameters<3> &, const std::filesystem::path &);
   template std::shared_ptr<Geometry<2>>
-  read_geometry(const SectionReader &, const GridParameters<2> &, const std::filesystem::path &);
+  read_geometry(const SectionReader &,
+                const GridParameters<2> &,
+                const std::filesystem::path &,
+                const BodyExtent);
   template std::shared_ptr<Geometry<3>>
-  read_geometry(const SectionReader &, const GridParameters<3> &, const std::filesystem::path &);
+  read_geometry(const SectionReader &,
+                const GridParameters<3> &,
+                const std::filesystem::path &,
+                const BodyExtent);
 } // namespace kedge

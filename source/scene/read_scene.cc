@@ -11,6 +11,7 @@
 #include <kedge/scene/read_numerics.h>
 #include <kedge/scene/read_pore_fluid.h>
 #include <kedge/scene/read_scene.h>
+#include <kedge/scene/rigid_section.h>
 #include <kedge/scene/values.h>
 
 #include <algorithm>
@@ -113,6 +114,18 @@ namespace kedge
     {
       const SectionReader section(reader, {"Grid"});
       GridParameters<dim> grid;
+      if (reader.names("Bodies").empty() && !reader.names("Rigid bodies").empty() &&
+          section.is_empty("Extent") && section.is_empty("Cells"))
+        {
+          // nothing is computed on it
+          for (unsigned int d = 0; d < dim; ++d)
+            grid.extent[d] = grid.n_cells[d] = 1;
+          return grid;
+        }
+      for (const std::string entry : {"Extent", "Cells"})
+        if (section.is_empty(entry))
+          throw UserError(reader.place({"Grid"}, entry) + ": Grid/" + entry +
+                          " must be given, but for scenes of Rigid bodies alone.");
       grid.origin  = point<dim>(section, "Origin");
       grid.extent  = point<dim>(section, "Extent");
       grid.n_cells = counts<dim>(section, "Cells");
@@ -282,7 +295,8 @@ namespace kedge
     void
     set_elements(const ParameterReader &reader, Scene<dim> &scene)
     {
-      const bool is_quadratic = scene.bodies[0].basis == BasisKind::quadratic;
+      const bool is_quadratic =
+        !scene.bodies.empty() && scene.bodies[0].basis == BasisKind::quadratic;
       if (is_quadratic || (scene.pore_fluid && scene.pore_fluid->coarse_pressure))
         scene.grid.node_intervals = 2;
       if (!is_quadratic)
@@ -397,6 +411,14 @@ namespace kedge
           scene.bodies = read_bodies<dim>(reader,
                                           scene.grid,
                                           std::filesystem::path(file.file_name).parent_path());
+        });
+      if (has_grid)
+        errors.attempt([&]() {
+          scene.rigid_bodies =
+            read_rigid_bodies<dim>(reader,
+                                   scene.grid,
+                                   std::filesystem::path(file.file_name).parent_path());
+          scene.lines = read_lines(reader);
         });
       errors.attempt([&]() {
         scene.contacts = read_contacts<dim>(reader);

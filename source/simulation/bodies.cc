@@ -55,6 +55,8 @@ namespace kedge
           found->push_back(name);
           bodies.field.push_back(static_cast<unsigned int>(found - members.begin()));
         }
+      if (members.empty()) // rigid bodies alone
+        members.push_back({"none"});
       for (const auto &field : members)
         bodies.field_names.push_back(field.front());
     }

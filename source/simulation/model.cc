@@ -32,6 +32,8 @@ namespace kedge
     for (unsigned int field = 0; field < fields.size(); ++field)
       motions.push_back(&choose_terms(field, program));
     n_field_terms = terms.size() - surface_terms.size();
+    if (!scene.rigid_bodies.empty())
+      choose_rigid_terms(program);
     choose_contact_terms();
     if (!scene.open_sides.empty())
       terms.push_back(std::make_unique<OutflowTerm<dim>>(bodies.soils, motions, communicator));

@@ -72,6 +72,11 @@ namespace kedge
     MPI_Allreduce(MPI_IN_PLACE, low.data(), dim, MPI_INT, MPI_MIN, communicator);
     MPI_Allreduce(MPI_IN_PLACE, high.data(), dim, MPI_INT, MPI_MAX, communicator);
 
+    if (low[0] > high[0]) // no points
+      {
+        low.fill(0);
+        high.fill(0);
+      }
     covered.low = low;
     for (int d = 0; d < dim; ++d)
       covered.n_cells[d] = high[d] - low[d] + 1;

@@ -1,4 +1,5 @@
 #include <kedge/points/volume_report.h>
+#include <kedge/rigid/rigid_bodies.h>
 #include <kedge/simulation/attachments.h>
 #include <kedge/simulation/run.h>
 #include <kedge/stress/point_update.h>
@@ -7,6 +8,30 @@
 
 namespace kedge
 {
+  namespace
+  {
+    template <int dim>
+    void
+    describe_rigid_bodies(std::ostream &out, const RigidBodies<dim> &bodies)
+    {
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        {
+          const RigidBody &body = bodies[b];
+          out << "rigid body:       " << body.name << ", " << body.mass
+              << (dim == 2 ? " kg/m at (" : " kg at (");
+          for (int d = 0; d < dim; ++d)
+            out << (d > 0 ? ", " : "") << body.state.centre[d];
+          out << ") m, moments of inertia about it ";
+          for (int d = dim == 3 ? 0 : 2; d < 3; ++d)
+            out << body.inertia[d][d] << (d < 2 ? ", " : "");
+          out << (dim == 2 ? " kg m, " : " kg m^2, ") << bodies.surface(b).facets.size()
+              << " facets\n";
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   validate_scene(const Scene<dim> &scene, std::ostream &out, const MPI_Comm communicator)
@@ -35,6 +60,8 @@ namespace kedge
     for (unsigned int b = 0; b < model.scene.bodies.size(); ++b)
       out << "body:             " << model.scene.bodies[b].name << ", " << points_of_body[b]
           << " material points of " << scene.materials[model.scene.bodies[b].material].name << "\n";
+    if (model.rigid() != nullptr)
+      describe_rigid_bodies(out, *model.rigid());
     const Lattice<dim> &lattice = model.points.grid().lattice();
     write_volumes(out, model.scene.bodies, lattice, model.generated_points());
     // a block row of the tangent reaches 3^dim nodes, 5^dim with GIMP

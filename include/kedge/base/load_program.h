@@ -26,6 +26,13 @@ namespace kedge
       , slope(grows ? 1. / duration : 0.)
     {}
 
+    /** Whether this is a stage before a run, in which time stands still. */
+    bool
+    in_stage() const
+    {
+      return stands_still;
+    }
+
     /** Time for the expressions at time @p t of the computation [s]. */
     double
     time(const double t) const

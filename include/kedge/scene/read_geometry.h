@@ -7,6 +7,13 @@
 
 namespace kedge
 {
+  /** Where a body may be. */
+  enum class BodyExtent
+  {
+    in_grid,
+    anywhere
+  };
+
   /**
    * The entry Geometry of a body.
    *
@@ -17,7 +24,8 @@ namespace kedge
   std::shared_ptr<Geometry<dim>>
   read_geometry(const SectionReader         &section,
                 const GridParameters<dim>   &grid,
-                const std::filesystem::path &folder);
+                const std::filesystem::path &folder,
+                const BodyExtent             extent = BodyExtent::in_grid);
 
   /** Its parts that do not touch, see parse_pieces(). */
   template <int dim>

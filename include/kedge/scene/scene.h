@@ -7,6 +7,7 @@
 #include <kedge/materials/parameters.h>
 #include <kedge/points/parameters.h>
 #include <kedge/porous/parameters.h>
+#include <kedge/rigid/parameters.h>
 #include <kedge/solid/parameters.h>
 #include <kedge/solvers/parameters.h>
 #include <kedge/time_integration/parameters.h>
@@ -24,14 +25,16 @@ namespace kedge
   template <int dim>
   struct Scene
   {
-    std::string                               name; ///< the file's name without folder and ending
-    std::string                               title;
-    std::map<std::string, double>             constants; ///< of all expressions
-    GridParameters<dim>                       grid;
-    std::vector<unsigned int> open_sides; ///< of the grid, 2*direction + (0: low, 1: high)
+    std::string                   name; ///< the file's name without folder and ending
+    std::string                   title;
+    std::map<std::string, double> constants; ///< of all expressions
+    GridParameters<dim>           grid;
+    std::vector<unsigned int>     open_sides; ///< of the grid, 2*direction + (0: low, 1: high)
     std::vector<NodeConditionParameters<dim>> node_conditions;
     std::vector<MaterialParameters>           materials;
     std::vector<BodyParameters<dim>>          bodies;
+    std::vector<RigidBodyParameters<dim>>     rigid_bodies;
+    std::vector<LineParameters>               lines;
     std::vector<ContactParameters>            contacts;
     std::optional<PorousParameters>           pore_fluid; ///< saturates all bodies
     std::vector<SurfacePressureParameters>    surface_pressures;

@@ -14,6 +14,8 @@ namespace kedge
   struct NodalLaw;
   template <int dim>
   struct ContactFields;
+  template <int dim>
+  class RigidBodies;
 
   /**
    * What a scene is made of: the points on their grid, the fields, the terms of the
@@ -51,6 +53,13 @@ namespace kedge
     initial_stress_notes() const
     {
       return stress_notes;
+    }
+
+    /** The rigid bodies; nothing if there are none. */
+    const RigidBodies<dim> *
+    rigid() const
+    {
+      return rigid_bodies;
     }
 
     /** Frees what only the start-up needs. */
@@ -93,6 +102,8 @@ namespace kedge
     void
     choose_surface_terms();
     void
+    choose_rigid_terms(const LoadProgram &program);
+    void
     choose_contact_terms();
     void
     choose_nodal_contact_term(const ContactParameters &contact);
@@ -111,7 +122,8 @@ namespace kedge
     std::vector<PointOrigin<dim>>         generated;
     std::vector<std::string>              stress_notes;
     std::vector<const SurfaceTerm<dim> *> surface_terms; ///< come first
-    std::size_t n_field_terms = 0;                       ///< of single fields; others come behind
+    RigidBodies<dim> *rigid_bodies  = nullptr;           ///< of their term; none if there are none
+    std::size_t       n_field_terms = 0;                 ///< of single fields; others come behind
   };
 } // namespace kedge
 

@@ -1,0 +1,22 @@
+# The scenes of rigid bodies and lines that are run as tests.
+
+# energy and momentum to round-off for any step; errors that fall by four when the step is halved
+kedge_add_scene_test(scene.free_top prm/free_top.prm COMPARE_RANKS 1e-12)
+kedge_add_scene_test(scene.free_top.short_steps prm/free_top.prm SET "Constants/dt = 0.01")
+kedge_add_scene_test(scene.free_top.long_steps prm/free_top.prm SET "Constants/dt = 0.9")
+foreach(angle 5 60 90 150)
+  kedge_add_scene_test(scene.pendulum.${angle} prm/pendulum.prm SET "Constants/angle = ${angle}")
+endforeach()
+foreach(k 1e5 1e6 1e7)
+  kedge_add_scene_test(scene.pendulum.k_${k} prm/pendulum.prm
+    SET "Constants/angle = 60" "Constants/k = ${k}" "Lines/rod/Stiffness = k"
+      "Lines/rod/Pushes = false")
+endforeach()
+kedge_add_scene_test(scene.slack_line prm/slack_line.prm COMPARE_RANKS 1e-9)
+kedge_add_restart_test(scene.restart.slack_line prm/slack_line.prm KILLS 1
+  SET "Constants/dt = 1e-4" "Output/Checkpoint every steps = 500")
+kedge_add_scene_test(refusal.rigid_scheme prm/free_top.prm
+  SET "Time/Scheme = newmark" EXPECT_EXIT 1
+  EXPECT_STDERR "Rigid bodies: Time/Scheme must be" LABELS refusal)
+kedge_add_scene_test(refusal.rigid_without_grid prm/quickstart.prm
+  SET "Grid/Extent = " EXPECT_EXIT 1 EXPECT_STDERR "Grid/Extent must be given" LABELS refusal)
