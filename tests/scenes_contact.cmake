@@ -75,6 +75,10 @@ kedge_add_test(scene.contact.surfaces LABELS scene
 kedge_add_scene_test(scene.cattaneo_mindlin prm/cattaneo_mindlin.prm)
 kedge_add_scene_test(scene.cattaneo_mindlin.nearly_sliding prm/cattaneo_mindlin.prm
   SET "Constants/q = 0.9")
+kedge_add_test(scene.cattaneo_mindlin.displacement LABELS scene
+  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/benchmarks/contact/partial_slip.py
+    --kedge $<TARGET_FILE:kedge> --output ${CMAKE_CURRENT_BINARY_DIR}/scenes/partial_slip
+    --cells 16 --steps 4 --within 0.03)
 kedge_add_scene_test(scene.prism_sliding prm/prism_sliding.prm)
 # soft bodies: h = 1/2 is as far off finite elements as 0.63 %
 kedge_add_scene_test(scene.prism_soft prm/prism_soft.prm SET "Output/Points interval = 0")

@@ -49,20 +49,21 @@ namespace kedge
   void
   CouplingSum<dim>::add_to(Tangent<dim> &tangent) const
   {
+    using Node = std::pair<unsigned int, unsigned int>;
+    std::map<std::pair<Node, Node>, dealii::Tensor<2, dim>> pairs; // fewer than in all blocks
     for (const auto &[nodes, sum] : blocks)
       {
         auto block = sum.begin();
         for (const auto &row : nodes)
           for (const auto &column : nodes)
-            {
-              for (unsigned int i = 0; i < dim; ++i)
-                for (unsigned int j = 0; j < dim; ++j)
-                  tangent.add({row.first, row.second, i},
-                              {column.first, column.second, j},
-                              (*block)[i][j]);
-              ++block;
-            }
+            pairs[{row, column}] += *block++;
       }
+    for (const auto &[pair, sum] : pairs)
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          tangent.add({pair.first.first, pair.first.second, i},
+                      {pair.second.first, pair.second.second, j},
+                      sum[i][j]);
     for (const auto &[nodes, sum] : by_pressure)
       {
         auto block = sum.begin();

@@ -89,6 +89,7 @@ namespace kedge
     const FacetSearch<dim> search(other.mesh, here);
     if (search.empty())
       return;
+    guesses.resize(sampled.mesh.facets.size(), search.no_facet);
     const FacetSearch<dim> search_end(other.end, box_around(sampled.end, reach));
     for (unsigned int f = 0; f < sampled.mesh.facets.size(); ++f)
       {
@@ -101,8 +102,10 @@ namespace kedge
         const auto   outward  = area_vector<dim>(corners);
         const double area     = outward.norm();
         Sample       sample;
-        if (!(area > 0.) || !search.find(x, outward / area, reach, previous, sample.partner))
+        if (!(area > 0.) ||
+            !search.find(x, outward / area, reach, previous, sample.partner, guesses[f]))
           continue;
+        guesses[f]   = sample.partner.facet;
         sample.facet = f;
         sample.area  = share * sampled.surface.reference_area(f);
         if (!set_start(sample))
@@ -138,7 +141,12 @@ namespace kedge
     const auto               outward = area_vector<dim>(sampled.end.corners(sample.facet));
     const dealii::Point<dim> x       = middle(sampled.end, sample.facet);
     typename FacetSearch<dim>::Partner partner;
-    if (!search.find(x, outward / outward.norm(), reach, sample.partner.facet, partner))
+    if (!search.find(x,
+                     outward / outward.norm(),
+                     reach,
+                     sample.partner.facet,
+                     partner,
+                     sample.partner.facet))
       return;
     const double                 measured = partner.normal * (x - place_of(other.end, partner));
     const dealii::Tensor<1, dim> D        = relative_displacement(sample);

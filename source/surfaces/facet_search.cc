@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace kedge
 {
@@ -83,12 +82,6 @@ namespace kedge
         return {Region2::vertex, {{0., 1.}}, 0., {{1, 1}}};
       return {Region2::face, {{1. - s, s}}, 0., {{0, 0}}};
     }
-
-    std::pair<unsigned int, unsigned int>
-    edge_between(const unsigned int a, const unsigned int b)
-    {
-      return {std::min(a, b), std::max(a, b)};
-    }
   } // namespace
 
 
@@ -142,47 +135,59 @@ namespace kedge
     if (empty())
       return;
     tree = std::make_unique<Tree>(found);
-    find_normals();
+    std::vector<unsigned int> facets;
+    for (const auto &entry : found)
+      facets.push_back(entry.second);
+    find_normals(facets);
   }
 
 
 
+  /** Normals at the vertices of the facets in the region. */
   template <int dim>
   void
-  FacetSearch<dim>::find_normals()
+  FacetSearch<dim>::find_normals(const std::vector<unsigned int> &found)
   {
     normals.resize(mesh.facets.size());
-    vertex_normals.resize(mesh.vertices.size());
+    number_of_vertex.assign(mesh.vertices.size(), no_facet);
+    unsigned int n_vertices = 0;
+    for (const unsigned int f : found)
+      for (const unsigned int v : mesh.facets[f])
+        if (number_of_vertex[v] == no_facet)
+          number_of_vertex[v] = n_vertices++;
+    vertex_normals.resize(n_vertices);
     for (unsigned int f = 0; f < mesh.facets.size(); ++f)
       {
+        const bool is_near =
+          std::any_of(mesh.facets[f].begin(), mesh.facets[f].end(), [&](const unsigned int v) {
+            return number_of_vertex[v] != no_facet;
+          });
+        if (!is_near || mesh.has_left(f))
+          continue;
         const auto corners = mesh.corners(f);
         normals[f]         = area_vector<dim>(corners);
         const double area  = normals[f].norm();
-        if (!(area > 0.) || mesh.has_left(f))
+        if (!(area > 0.))
           continue;
         normals[f] /= area;
         for (int i = 0; i < dim; ++i)
           {
+            const unsigned int number = number_of_vertex[mesh.facets[f][i]];
+            if (number == no_facet)
+              continue;
             double weight = 1.; // in 2D neighbours count alike
             if constexpr (dim == 3)
               {
                 const auto a = corners[(i + 1) % 3] - corners[i],
                            b = corners[(i + 2) % 3] - corners[i];
                 weight       = std::atan2(cross_product_3d(a, b).norm(), a * b);
-                auto &edge =
-                  edge_normals[edge_between(mesh.facets[f][i], mesh.facets[f][(i + 1) % 3])];
-                edge.sum += normals[f];
-                edge.facets.push_back(f);
               }
-            auto &vertex = vertex_normals[mesh.facets[f][i]];
-            vertex.sum += weight * normals[f];
-            vertex.facets.push_back(f);
+            vertex_normals[number].sum += weight * normals[f];
+            vertex_normals[number].facets.push_back(f);
           }
       }
     for (auto &vertex : vertex_normals)
       find_mean(vertex);
-    for (auto &edge : edge_normals)
-      find_mean(edge.second);
   }
 
 
@@ -207,14 +212,25 @@ namespace kedge
 
 
 
+  /** At an edge or a vertex of a facet in the region. */
   template <int dim>
-  const typename FacetSearch<dim>::MeanNormal &
+  typename FacetSearch<dim>::MeanNormal
   FacetSearch<dim>::mean_at(const unsigned int facet, const FacetPoint<dim> &place) const
   {
-    const auto &vertices = mesh.facets[facet];
+    const auto       &vertices = mesh.facets[facet];
+    const MeanNormal &here     = vertex_normals[number_of_vertex[vertices[place.corners[0]]]];
     if (place.region == FacetPoint<dim>::Region::vertex)
-      return vertex_normals[vertices[place.corners[0]]];
-    return edge_normals.at(edge_between(vertices[place.corners[0]], vertices[place.corners[1]]));
+      return here;
+    const unsigned int other = vertices[place.corners[1]];
+    MeanNormal         mean;
+    for (const unsigned int f : here.facets)
+      if (std::find(mesh.facets[f].begin(), mesh.facets[f].end(), other) != mesh.facets[f].end())
+        {
+          mean.sum += normals[f];
+          mean.facets.push_back(f);
+        }
+    find_mean(mean);
+    return mean;
   }
 
 
@@ -246,21 +262,16 @@ namespace kedge
 
 
 
+  /** The facets in the region whose boxes come as near, in their order. */
   template <int dim>
-  bool
-  FacetSearch<dim>::find(const dealii::Point<dim>     &x,
-                         const dealii::Tensor<1, dim> &outward,
-                         const double                  reach,
-                         const unsigned int            previous,
-                         Partner                      &partner) const
+  std::vector<unsigned int>
+  FacetSearch<dim>::facets_within(const dealii::Point<dim> &x, const double distance) const
   {
-    if (empty())
-      return false;
     dealii::Point<dim> lower = x, upper = x;
     for (int d = 0; d < dim; ++d)
       {
-        lower[d] -= reach;
-        upper[d] += reach;
+        lower[d] -= distance;
+        upper[d] += distance;
       }
     std::vector<unsigned int> near;
     for (const auto &entry :
@@ -268,33 +279,99 @@ namespace kedge
                         dealii::BoundingBox<dim>({lower, upper}))))
       near.push_back(entry.second);
     std::sort(near.begin(), near.end()); // the answer does not depend on the tree's order
+    return near;
+  }
 
-    double          least = reach;
-    FacetPoint<dim> best{};
-    unsigned int    best_facet = no_facet;
-    for (const unsigned int f : near)
+
+
+  template <int dim>
+  void
+  FacetSearch<dim>::take_if_nearer(const dealii::Point<dim>     &x,
+                                   const dealii::Tensor<1, dim> &outward,
+                                   const unsigned int            facet,
+                                   const unsigned int            previous,
+                                   Nearest                      &nearest) const
+  {
+    if (!(normals[facet] * outward < largest_cosine))
+      return;
+    const auto            corners  = mesh.corners(facet);
+    const FacetPoint<dim> place    = closest_on_facet<dim>(corners, x);
+    double                distance = place.distance;
+    // inside a bend both facets have a foot of the perpendicular
+    if (facet == previous && place.region == FacetPoint<dim>::Region::face)
+      distance -= hysteresis * (corners[1] - corners[0]).norm();
+    if (distance < nearest.distance)
+      nearest = {facet, place, distance};
+  }
+
+
+
+  /**
+   * Of the facets nearer than @p reach that look towards x the nearest, by searches wider and wider
+   * until nothing outside of the last one can be nearer. Returns the facets of that one.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  FacetSearch<dim>::find_nearest(const dealii::Point<dim>     &x,
+                                 const dealii::Tensor<1, dim> &outward,
+                                 const double                  reach,
+                                 const unsigned int            previous,
+                                 const unsigned int            guess,
+                                 Nearest                      &nearest) const
+  {
+    constexpr double first = 0.25, wider = 2.; // in reaches; from one search to the next
+    double           kept = 0.;                // what the last partner may be farther off
+    if (previous < mesh.facets.size())
       {
-        if (!(normals[f] * outward < largest_cosine))
-          continue;
-        const auto            corners  = mesh.corners(f);
-        const FacetPoint<dim> place    = closest_on_facet<dim>(corners, x);
-        double                distance = place.distance;
-        // inside a bend both facets have a foot of the perpendicular
-        if (f == previous && place.region == FacetPoint<dim>::Region::face)
-          distance -= hysteresis * (corners[1] - corners[0]).norm();
-        if (distance < least)
-          {
-            least      = distance;
-            best       = place;
-            best_facet = f;
-          }
+        const auto corners = mesh.corners(previous);
+        kept               = hysteresis * (corners[1] - corners[0]).norm();
       }
+    double distance = std::min(first * reach + kept, reach);
+    if (guess < normals.size())
+      {
+        nearest.distance = reach;
+        take_if_nearer(x, outward, guess, no_facet, nearest);
+        if (nearest.facet != no_facet)
+          distance = std::min((1. + 1e-9) * nearest.distance + kept, reach);
+      }
+    while (true)
+      {
+        nearest.facet                        = no_facet;
+        nearest.distance                     = reach;
+        const std::vector<unsigned int> near = facets_within(x, distance);
+        for (const unsigned int f : near)
+          take_if_nearer(x, outward, f, previous, nearest);
+        // what is not among them is farther off than this distance
+        if (distance >= reach || (nearest.facet != no_facet && nearest.distance + kept <= distance))
+          return near;
+        distance = std::min(wider * distance, reach);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  FacetSearch<dim>::find(const dealii::Point<dim>     &x,
+                         const dealii::Tensor<1, dim> &outward,
+                         const double                  reach,
+                         const unsigned int            previous,
+                         Partner                      &partner,
+                         const unsigned int            guess) const
+  {
+    if (empty())
+      return false;
+    Nearest                         nearest;
+    const std::vector<unsigned int> near =
+      find_nearest(x, outward, reach, previous, guess, nearest);
+    const unsigned int     best_facet = nearest.facet;
+    const FacetPoint<dim> &best       = nearest.place;
     if (best_facet == no_facet)
       return false;
     partner.normal = normals[best_facet];
     if (best.region != FacetPoint<dim>::Region::face)
       {
-        const MeanNormal &mean = mean_at(best_facet, best);
+        const MeanNormal mean = mean_at(best_facet, best);
         if (mean.is_sharp)
           return false;
         partner.normal = mean.sum;

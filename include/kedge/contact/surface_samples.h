@@ -287,7 +287,8 @@ namespace kedge
     const ShearLimit<dim>         &limit;
     const double                   share, reach, depth;
     std::vector<Sample>            samples_;
-    std::map<unsigned int, Memory> memory; ///< committed, by facet
+    std::vector<unsigned int>      guesses; ///< by facet, where the last search has ended
+    std::map<unsigned int, Memory> memory;  ///< committed, by facet
   };
 } // namespace kedge
 

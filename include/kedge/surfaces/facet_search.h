@@ -5,7 +5,6 @@
 
 #include <deal.II/base/bounding_box.h>
 
-#include <map>
 #include <memory>
 
 namespace kedge
@@ -82,6 +81,8 @@ namespace kedge
      *
      * @param reach    facets farther off do not count [m]
      * @param previous the last partner, which is kept if no other is clearly closer
+     * @param guess    a facet that is perhaps near, from which the search begins: the answer does
+     *                 not depend on it
      * @return false if there is none
      */
     bool
@@ -89,10 +90,19 @@ namespace kedge
          const dealii::Tensor<1, dim> &outward,
          const double                  reach,
          const unsigned int            previous,
-         Partner                      &partner) const;
+         Partner                      &partner,
+         const unsigned int            guess = no_facet) const;
 
   private:
     class Tree;
+
+    /** The facet found so far. */
+    struct Nearest
+    {
+      unsigned int    facet = no_facet;
+      FacetPoint<dim> place{};
+      double          distance; ///< by which facets are compared, with hysteresis [m]
+    };
 
     /** A sum of the normals around an edge or a vertex, and the facets that have added to it. */
     struct MeanNormal
@@ -103,23 +113,38 @@ namespace kedge
     };
 
     void
-    find_normals();
+    find_normals(const std::vector<unsigned int> &found);
     void
     find_mean(MeanNormal &mean) const;
-    const MeanNormal &
+    MeanNormal
     mean_at(const unsigned int facet, const FacetPoint<dim> &place) const;
+    std::vector<unsigned int>
+    facets_within(const dealii::Point<dim> &x, const double distance) const;
+    void
+    take_if_nearer(const dealii::Point<dim>     &x,
+                   const dealii::Tensor<1, dim> &outward,
+                   const unsigned int            facet,
+                   const unsigned int            previous,
+                   Nearest                      &nearest) const;
+    std::vector<unsigned int>
+    find_nearest(const dealii::Point<dim>     &x,
+                 const dealii::Tensor<1, dim> &outward,
+                 const double                  reach,
+                 const unsigned int            previous,
+                 const unsigned int            guess,
+                 Nearest                      &nearest) const;
     bool
     is_outside(const dealii::Point<dim>        &x,
                const std::vector<unsigned int> &facets,
                const double                     reach) const;
 
     const SurfaceMesh<dim>             &mesh;
-    std::vector<dealii::Tensor<1, dim>> normals;        ///< unit vectors of all facets
-    std::vector<MeanNormal>             vertex_normals; ///< weighted by angles
-    std::map<std::pair<unsigned int, unsigned int>, MeanNormal>
-                          edge_normals; ///< of edges between vertices, in 3D
-    std::unique_ptr<Tree> tree;
-    unsigned int          n_found = 0;
+    std::vector<dealii::Tensor<1, dim>> normals; ///< unit vectors of the facets in the region and
+                                                 ///< of those that share a vertex with one
+    std::vector<unsigned int> number_of_vertex;  ///< of these facets, in vertex_normals
+    std::vector<MeanNormal>   vertex_normals;    ///< weighted by angles
+    std::unique_ptr<Tree>     tree;
+    unsigned int              n_found = 0;
   };
 } // namespace kedge
 
