@@ -58,6 +58,11 @@ kedge_add_scene_test(scene.k0_layer.dense prm/k0_layer.prm
 kedge_add_scene_test(scene.k0_layer.returned prm/k0_layer.prm SET "Constants/K0 = 0.2"
   EXPECT_EXIT 2 EXPECT_STDOUT "80 of 80 material points .100 .. began beyond the yield surface"
   EXPECT_STDERR "^$")
+# sand that flows: to rest, with closed books and the front of the fits
+kedge_add_scene_test(scene.granular_collapse prm/granular_collapse.prm)
+# the scene can fail: with FLIP the points keep velocities that the grid does not see
+kedge_add_scene_test(scene.granular_collapse.flip prm/granular_collapse.prm
+  SET "Mapping/Velocity = flip" EXPECT_EXIT 2 EXPECT_STDOUT "FAIL at rest" EXPECT_STDERR "^$")
 kedge_add_scene_test(scene.strip_su_depth prm/strip_su_depth.prm)
 kedge_add_scene_test(scene.strip_su_depth.von_mises prm/strip_su_depth.prm
   SET "Materials/clay/Model = von_mises")

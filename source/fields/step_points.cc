@@ -33,7 +33,6 @@ namespace kedge
   {
     return make_stress_state<dim>(state.elastic_frame,
                                   state.out_of_plane_elastic_stretch,
-                                  state.deformation_gradient,
                                   state.kirchhoff_stress);
   }
 

@@ -117,6 +117,36 @@ namespace kedge
       return total[0] / total[1];
     }
 
+    /** The least value that no more than `part` of V0 lies below. Collective. */
+    template <int dim>
+    double
+    point_quantile(const CheckParameters               &check,
+                   const std::vector<PointRecord<dim>> &local_points,
+                   const MPI_Comm                       communicator)
+    {
+      std::vector<std::pair<double, double>> values; // and volumes
+      run_on_all(communicator, [&]() {
+        const PointQuantity<dim> quantity = point_quantity<dim>(check.column);
+        for (const PointRecord<dim> &point : local_points)
+          values.emplace_back(quantity(point), point.state.reference_volume);
+      });
+      std::vector<std::pair<double, double>> all;
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, values))
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+      std::sort(all.begin(), all.end());
+      double volume = 0., below = 0., value = not_a_number;
+      for (const auto &point : all)
+        volume += point.second;
+      for (const auto &point : all)
+        {
+          value = point.first;
+          below += point.second;
+          if (below > check.part * volume)
+            break;
+        }
+      return value;
+    }
+
     bool
     passes(const CheckResult &result)
     {
@@ -183,7 +213,7 @@ namespace kedge
         const Place       place  = place_of(check.column);
         const std::size_t dot    = place.column.rfind('.');
         const bool        prefix = place.column.size() != check.column.size();
-        if (check.statistic == CheckStatistic::point_error)
+        if (is_of_points(check.statistic))
           point_quantity<dim>(check.column);
         else if (place.in_probes && dot == std::string::npos)
           throw UserError("The check '" + check.name + "' asks for '" + check.column +
@@ -201,7 +231,7 @@ namespace kedge
         else
           throw UserError("The check '" + check.name + "' asks for '" + check.column +
                           "': write history.COLUMN or probe.NAME.COLUMN. A point field's name "
-                          "goes with the statistic point_error only.");
+                          "goes with the statistics point_error and point_quantile only.");
       }
   }
 
@@ -265,6 +295,8 @@ namespace kedge
         std::string remark;
         if (check.statistic == CheckStatistic::point_error)
           value = point_error(check, local_points, constants, communicator);
+        else if (check.statistic == CheckStatistic::point_quantile)
+          value = point_quantile(check, local_points, communicator);
         else
           run_on_root(communicator, [&]() {
             value = table_value(check, folder, remark);

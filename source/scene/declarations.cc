@@ -354,6 +354,9 @@ namespace kedge
       SectionDeclaration
       checks() const
       {
+        Range part_of_one          = Range::positive();
+        part_of_one.upper          = 1;
+        part_of_one.includes_upper = false;
         return {
           "Checks",
           "Known answers; each ends the run with a line PASS or FAIL.",
@@ -362,7 +365,8 @@ namespace kedge
             required,
             allow.quantity(),
             "What is compared. drift: largest change since Time. period: twice the mean spacing "
-            "of zero crossings after Time. point_error: volume mean of |field - Exact| at the end."},
+            "of zero crossings after Time. point_error: volume mean of |field - Exact| at the end. "
+            "point_quantile: what a Part of the volume has no more of than, at the end."},
            {"Time",
             "",
             allow.number().or_empty(),
@@ -372,6 +376,10 @@ namespace kedge
             allow.expression(coordinates("XYZ"), coordinate_words("XYZ") + ", the initial place")
               .or_empty(),
             "The answer of point_error at each material point."},
+           {"Part",
+            "",
+            allow.number(part_of_one).or_empty(),
+            "Of point_quantile, of the points' initial volume; 0.5: the median [-]."},
            {"Scale", "1", allow.number(Range::positive()), "The quantity is divided by it."},
            {"Reference",
             "",

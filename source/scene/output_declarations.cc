@@ -30,7 +30,7 @@ namespace kedge
                        "von_mises_stress, strain_energy, kinetic_energy, mass, volume, body, "
                        "id, equivalent_plastic_strain, yield_stress, plastic_volume_strain, "
                        "plastic_shear_strain, undrained_strength, cohesion, stiffness, "
-                       "preconsolidation_pressure, plastic_dissipation, pore_pressure, "
+                       "preconsolidation_pressure, opening, plastic_dissipation, pore_pressure, "
                        "porosity, darcy_velocity, total_stress"))
           .or_empty(),
         "What the pictures hold."},

@@ -210,7 +210,7 @@ namespace kedge
     time.end     = scene.path.end;
     scene.checks = read_checks(reader, time);
     for (const CheckParameters &check : scene.checks)
-      if (check.statistic == CheckStatistic::point_error)
+      if (is_of_points(check.statistic))
         throw SectionReader(reader, {"Checks", check.name})
           .error("Quantity", "There is but one point; compare a column, history.COLUMN.");
     scene.parameters = reader.print();

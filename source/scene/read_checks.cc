@@ -52,6 +52,14 @@ namespace kedge
                             is_point_error ? "point_error needs the exact field."
                                            : "It has a meaning for point_error only.");
 
+      const bool is_quantile = check.statistic == CheckStatistic::point_quantile;
+      if (section.is_empty("Part") == is_quantile)
+        throw section.error("Part",
+                            is_quantile ? "point_quantile needs it."
+                                        : "It has a meaning for point_quantile only.");
+      if (is_quantile)
+        check.part = section.number("Part");
+
       check.scale = section.number("Scale");
       if (!section.is_empty("Reference"))
         check.reference = section.number("Reference");

@@ -343,7 +343,8 @@ namespace kedge
   {
     return ValuePattern(
       "STATISTIC(COLUMN) with at, last, minimum, maximum, max_abs, drift or period of "
-      "history.COLUMN or probe.NAME.COLUMN, or point_error of a field of the points",
+      "history.COLUMN or probe.NAME.COLUMN, or point_error or "
+      "point_quantile of a field of the points",
       [](const auto &text) {
         parse_quantity(text);
       });

@@ -344,16 +344,17 @@ namespace kedge
   std::pair<CheckStatistic, std::string>
   parse_quantity(const std::string &text)
   {
-    const std::map<std::string, CheckStatistic> statistics = {{"at", CheckStatistic::at},
-                                                              {"last", CheckStatistic::last},
-                                                              {"minimum", CheckStatistic::minimum},
-                                                              {"maximum", CheckStatistic::maximum},
-                                                              {"max_abs", CheckStatistic::max_abs},
-                                                              {"drift", CheckStatistic::drift},
-                                                              {"period", CheckStatistic::period},
-                                                              {"point_error",
-                                                               CheckStatistic::point_error}};
-    std::string                                 name, column;
+    const std::map<std::string, CheckStatistic> statistics = {
+      {"at", CheckStatistic::at},
+      {"last", CheckStatistic::last},
+      {"minimum", CheckStatistic::minimum},
+      {"maximum", CheckStatistic::maximum},
+      {"max_abs", CheckStatistic::max_abs},
+      {"drift", CheckStatistic::drift},
+      {"period", CheckStatistic::period},
+      {"point_error", CheckStatistic::point_error},
+      {"point_quantile", CheckStatistic::point_quantile}};
+    std::string name, column;
     if (!split_call(text, name, column) || column.empty())
       throw UserError("It must have the form statistic(column), for example "
                       "last(history.total_energy).");
@@ -365,11 +366,11 @@ namespace kedge
     const bool           of_columns =
       column.rfind("history.", 0) == 0 ||
       (column.rfind("probe.", 0) == 0 && column.find('.') != column.rfind('.'));
-    if (statistic != CheckStatistic::point_error && !of_columns)
+    if (!is_of_points(statistic) && !of_columns)
       throw UserError("Within the parentheses stands history.COLUMN or probe.NAME.COLUMN.");
-    if (statistic == CheckStatistic::point_error && column.find('.') != std::string::npos)
-      throw UserError("point_error takes the name of a field of the material points, for example "
-                      "cauchy_stress_yy.");
+    if (is_of_points(statistic) && column.find('.') != std::string::npos)
+      throw UserError(name + " takes the name of a field of the material points, for example "
+                             "cauchy_stress_yy.");
     return {statistic, column};
   }
 

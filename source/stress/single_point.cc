@@ -84,12 +84,10 @@ namespace kedge
       for (int j = 0; j < 3; ++j)
         A[i][j] = gradient[i][j];
 
-    const StressState<3> stress_state = make_stress_state<3>(present.elastic_frame,
-                                                             1.,
-                                                             present.deformation_gradient,
-                                                             present.kirchhoff_stress);
-    std::vector<double>  history      = present.history;
-    const auto           columns      = columns_of(material);
+    const StressState<3> stress_state =
+      make_stress_state<3>(present.elastic_frame, 1., present.kirchhoff_stress);
+    std::vector<double> history = present.history;
+    const auto          columns = columns_of(material);
     for (unsigned int c = 0; c < columns.size(); ++c)
       if (columns[c].kind == ColumnKind::volume_strain)
         history[c] = std::log(determinant(present.deformation_gradient));

@@ -134,21 +134,34 @@ namespace kedge
         }
       return totals;
     }
-
-    /** 1/2 sum m |v'|^2 over this rank's points. */
-    template <int dim>
-    double
-    filtered_energy(const Patch<dim> &patch, const std::vector<double> &v_n)
-    {
-      std::vector<dealii::Tensor<1, dim>> v_at_points;
-      interpolate_to_points(patch, v_n, v_at_points);
-      double energy = 0.;
-      for (unsigned int p = 0; p < patch.points.size(); ++p)
-        energy +=
-          0.5 * patch.points.mass[p] * (patch.points.velocity[p] - v_at_points[p]).norm_square();
-      return energy;
-    }
   } // namespace
+
+
+
+  template <int dim>
+  double
+  filtered_energy(const Patch<dim> &patch, const std::vector<double> &v_n)
+  {
+    std::vector<dealii::Tensor<1, dim>> v_at_points;
+    interpolate_to_points(patch, v_n, v_at_points);
+    double energy = 0.;
+    for (unsigned int p = 0; p < patch.points.size(); ++p)
+      energy +=
+        0.5 * patch.points.mass[p] * (patch.points.velocity[p] - v_at_points[p]).norm_square();
+    return energy;
+  }
+
+
+
+  template <int dim>
+  double
+  lumping_energy(const Patch<dim> &patch, const std::vector<double> &v)
+  {
+    std::vector<double> lumped_mass(patch.nodes.n_local(), 0.);
+    add_scalars_to_nodes(patch, patch.points.mass, 1, lumped_mass);
+    const std::vector<dealii::Tensor<1, dim>> anywhere(patch.nodes.n_local());
+    return lumping_totals(patch, lumped_mass, anywhere, v).kinetic_energy;
+  }
 
 
 
@@ -238,17 +251,19 @@ namespace kedge
     return audit;
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                                 \
-  template TransferAudit<dim> &TransferAudit<dim>::operator+=(const TransferAudit<dim> &);     \
-  template MotionTotals<dim>  operator-(const MotionTotals<dim> &, const MotionTotals<dim> &); \
-  template TransferAudit<dim> audit_transfer(const Patch<dim> &,                               \
-                                             const std::vector<dealii::Tensor<1, dim>> &,      \
-                                             const NodeMatrix<dim> &,                          \
-                                             const double,                                     \
-                                             const VelocityUpdate,                             \
-                                             const std::vector<double> &,                      \
-                                             const std::vector<double> &,                      \
-                                             const std::vector<double> &);
+#define KEDGE_INSTANTIATE(dim)                                                                  \
+  template TransferAudit<dim> &TransferAudit<dim>::operator+=(const TransferAudit<dim> &);      \
+  template MotionTotals<dim>  operator-(const MotionTotals<dim> &, const MotionTotals<dim> &);  \
+  template TransferAudit<dim> audit_transfer(const Patch<dim> &,                                \
+                                             const std::vector<dealii::Tensor<1, dim>> &,       \
+                                             const NodeMatrix<dim> &,                           \
+                                             const double,                                      \
+                                             const VelocityUpdate,                              \
+                                             const std::vector<double> &,                       \
+                                             const std::vector<double> &,                       \
+                                             const std::vector<double> &);                      \
+  template double             filtered_energy(const Patch<dim> &, const std::vector<double> &); \
+  template double             lumping_energy(const Patch<dim> &, const std::vector<double> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 #undef KEDGE_INSTANTIATE

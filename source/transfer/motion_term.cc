@@ -46,6 +46,9 @@ namespace kedge
     };
     columns.kinetic_energy = ledger.declare(
       {"kinetic_energy", "J", Section::energy, Kind::present, Role::stored, "energy"});
+    if (transfer != nullptr && transfer->is_lossy())
+      columns.mapping_dissipation = ledger.declare(
+        {"mapping_dissipation", "J", Section::energy, Kind::total, Role::lost, "energy"});
     for (int d = 0; d < dim; ++d)
       columns.linear_momentum[d] =
         ledger.declare({std::string("linear_momentum_") + "xyz"[d], "kg m/s", Section::momentum});
@@ -119,6 +122,16 @@ namespace kedge
                                                  point_displacements[slot])))
         ++n;
     return n;
+  }
+
+
+
+  template <int dim>
+  void
+  MotionTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
+  {
+    if (transfer != nullptr && transfer->is_lossy())
+      ledger.book(columns.mapping_dissipation, transfer->loss(trial));
   }
 
 

@@ -69,16 +69,41 @@ namespace kedge
 
 
   template <int dim>
+  std::vector<double>
+  MotionTransfer<dim>::velocity_change(const Trial<dim>          &trial,
+                                       const std::vector<double> &v_end) const
+  {
+    std::vector<double> change(v_end.size());
+    for (std::size_t i = 0; i < v_end.size(); ++i)
+      change[i] = v_end[i] - trial.motion[field].velocity_n[i];
+    return change;
+  }
+
+
+
+  template <int dim>
+  double
+  MotionTransfer<dim>::loss(const Trial<dim> &trial) const
+  {
+    const double               epsilon = parameters.lumping;
+    const std::vector<double>  v_end   = trial.end_velocity(scheme, field);
+    const std::vector<double> &v_n     = trial.motion[field].velocity_n;
+    if (parameters.velocity_mapping == VelocityUpdate::flip)
+      return epsilon * lumping_energy(patch, velocity_change(trial, v_end));
+    return filtered_energy(patch, v_n) +
+           epsilon * (lumping_energy(patch, v_n) + lumping_energy(patch, v_end));
+  }
+
+
+
+  template <int dim>
   void
   MotionTransfer<dim>::to_points(const Trial<dim> &trial)
   {
     const bool                flip   = parameters.velocity_mapping == VelocityUpdate::flip;
     const auto               &motion = trial.motion[field];
     const std::vector<double> v_end  = trial.end_velocity(scheme, field);
-    std::vector<double>       change(v_end.size());
-    for (std::size_t i = 0; i < v_end.size(); ++i)
-      change[i] = v_end[i] - motion.velocity_n[i];
-    interpolate_to_points(patch, flip ? change : v_end, velocities);
+    interpolate_to_points(patch, flip ? velocity_change(trial, v_end) : v_end, velocities);
     if (scheme.carries_acceleration)
       interpolate_to_points(patch, trial.end_acceleration(scheme, field), accelerations);
     if (!parameters.audit)

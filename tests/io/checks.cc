@@ -115,7 +115,7 @@ TEST(IoChecksMpi, FromTheFilesAndThePoints)
     history.write(row);
     probes.write(1, points);
   }
-  std::vector<CheckParameters> checks(6, make_check(CheckStatistic::last));
+  std::vector<CheckParameters> checks(7, make_check(CheckStatistic::last));
   checks[0].scale     = 10; // 20 / 10 against 2.1 with 5 % of 2.1 = 0.105
   checks[0].reference = 2.1;
   checks[0].tolerance = 0.05;
@@ -131,9 +131,15 @@ TEST(IoChecksMpi, FromTheFilesAndThePoints)
   checks[3].tolerance = 1e-14;
   checks[4].column    = "history.no_such";
   checks[5]           = make_check(CheckStatistic::at, 2);
+  // strain energies 2 rank + 1 of three quarters of the volume, 2 rank + 5 of the rest
+  checks[6]           = make_check(CheckStatistic::point_quantile);
+  checks[6].column    = "strain_energy";
+  checks[6].part      = 1. - 0.2 / n_ranks; // in the last quarter of the last rank
+  checks[6].reference = 2. * n_ranks + 3.;
+  checks[6].tolerance = 1e-14;
 
   const auto              results  = evaluate_checks<2>(checks, run, points, {{"a", 2.}});
-  const std::vector<bool> expected = {true, false, true, true, false, false};
+  const std::vector<bool> expected = {true, false, true, true, false, false, true};
   ASSERT_EQ(results.size(), expected.size());
   for (unsigned int i = 0; i < results.size(); ++i)
     EXPECT_EQ(results[i].pass, expected[i]) << i << ": " << results[i].value << " on " << n_ranks;

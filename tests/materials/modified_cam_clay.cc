@@ -112,6 +112,15 @@ TEST(MaterialsModifiedCamClay, EndsOnTheSurfaceThatHasHardened)
   });
 }
 
+TEST(MaterialsModifiedCamClay, LanesAnswerAsPointsDo)
+{
+  std::vector<Step> steps;
+  for_random_steps([&](const auto &, const auto &step, const auto &) {
+    steps.push_back(step);
+  });
+  expect_lanes_alike(clay(), steps, 1e-11); // strains' round-off over kappa
+}
+
 TEST(MaterialsModifiedCamClay, SlopesAreThoseOf113BitDifferences)
 {
   for_random_steps([](const ModifiedCamClay &law, const Step &step, const auto &r) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
 namespace kedge::test
 {
@@ -105,6 +106,70 @@ namespace kedge::test
                       r.kirchhoff_stress[i] - r.kirchhoff_stress[j],
                       tolerance);
         }
+  }
+  /** A pack whose lanes hold the steps from @p first on, or all of them that step alone. */
+  template <class Law>
+  auto
+  respond_in_lanes(const Law                             &law,
+                   const std::vector<PrincipalStep<Law>> &steps,
+                   const std::size_t                      first,
+                   const bool                             alone)
+  {
+    Pack                 strain[3], increment[3];
+    HistoryOf<Law, Pack> history;
+    for (unsigned int lane = 0; lane < pack_width; ++lane)
+      {
+        const PrincipalStep<Law> &step = steps[first + (alone ? 0 : lane)];
+        for (int i = 0; i < 3; ++i)
+          {
+            strain[i].set(lane, step.strain[i]);
+            increment[i].set(lane, step.increment[i]);
+          }
+        double values[most_law_columns] = {};
+        write_history<Law>(step.history, values);
+        for (unsigned int c = 0; c < n_columns<Law>; ++c)
+          reinterpret_cast<Pack *>(&history)[c].set(lane, values[c]);
+      }
+    return law.respond(strain, increment, history);
+  }
+
+  /**
+   * Several points at once: each lane bit for bit as if all others were like it, and to
+   * @p tolerance, relative to stresses and moduli, as a point alone.
+   */
+  template <class Law>
+  void
+  expect_lanes_alike(const Law                             &law,
+                     const std::vector<PrincipalStep<Law>> &steps,
+                     const double                           tolerance)
+  {
+    ASSERT_GE(steps.size(), pack_width);
+    for (std::size_t first = 0; first + pack_width <= steps.size(); ++first)
+      {
+        const auto mixed = respond_in_lanes(law, steps, first, false);
+        const auto equal = respond_in_lanes(law, steps, first, true);
+        const auto alone =
+          law.respond(steps[first].strain, steps[first].increment, steps[first].history);
+        EXPECT_TRUE(mixed.valid[0] && equal.valid[0] && alone.valid);
+        double stress = 0.;
+        for (const double value : alone.kirchhoff_stress)
+          stress += std::abs(value);
+        for (int i = 0; i < 3; ++i)
+          {
+            EXPECT_EQ(mixed.kirchhoff_stress[i][0], equal.kirchhoff_stress[i][0]);
+            EXPECT_EQ(law.plastic_increment(mixed, i)[0], law.plastic_increment(equal, i)[0]);
+            EXPECT_NEAR(mixed.kirchhoff_stress[i][0],
+                        alone.kirchhoff_stress[i],
+                        tolerance * stress);
+            for (int j = 0; j < 3; ++j)
+              {
+                EXPECT_EQ(law.tangent(mixed, i, j)[0], law.tangent(equal, i, j)[0]);
+                EXPECT_NEAR(law.tangent(mixed, i, j)[0],
+                            law.tangent(alone, i, j),
+                            1e2 * tolerance * law.p_wave_modulus());
+              }
+          }
+      }
   }
 } // namespace kedge::test
 

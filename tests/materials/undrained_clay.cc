@@ -139,45 +139,13 @@ TYPED_TEST(MaterialsUndrainedClay, EndsOnTheSurfaceThatHasSoftened)
 
 TYPED_TEST(MaterialsUndrainedClay, LanesAnswerAsPointsDo)
 {
-  // packs whose lanes are elastic, on faces and on edges at once: to round-off the same
+  // lanes that are elastic, on faces and on edges at once
   std::vector<PrincipalStep<TypeParam>> steps;
   for_random_steps<TypeParam>([&](const auto &law, const auto &step, const auto &) {
     if (law.strength.rate_coefficient > 0. && law.strength.remoulded < 1.)
       steps.push_back(step);
   });
-  const TypeParam law(clay(0.25, 0.1));
-  for (std::size_t first = 0; first + pack_width <= steps.size(); first += pack_width)
-    {
-      Pack                       strain[3], increment[3];
-      HistoryOf<TypeParam, Pack> history;
-      for (unsigned int lane = 0; lane < pack_width; ++lane)
-        {
-          const auto &step = steps[first + lane];
-          for (int i = 0; i < 3; ++i)
-            {
-              strain[i].set(lane, step.strain[i]);
-              increment[i].set(lane, step.increment[i]);
-            }
-          history.equivalent_plastic_strain.set(lane, step.history.equivalent_plastic_strain);
-          history.plastic_shear_strain.set(lane, step.history.plastic_shear_strain);
-          history.undrained_strength.set(lane, step.history.undrained_strength);
-          history.time_step.set(lane, step.history.time_step);
-        }
-      const auto together = law.respond(strain, increment, history);
-      for (unsigned int lane = 0; lane < pack_width; ++lane)
-        {
-          const auto &step  = steps[first + lane];
-          const auto  alone = law.respond(step.strain, step.increment, step.history);
-          EXPECT_TRUE(together.valid[lane]);
-          for (int i = 0; i < 3; ++i)
-            {
-              EXPECT_NEAR(together.kirchhoff_stress[i][lane], alone.kirchhoff_stress[i], 1e-14);
-              EXPECT_NEAR(together.plastic_strain[i][lane], alone.plastic_strain[i], 1e-14);
-              for (int j = 0; j < 3; ++j)
-                EXPECT_NEAR(together.tangent[i][j][lane], alone.tangent[i][j], 1e-12);
-            }
-        }
-    }
+  expect_lanes_alike(TypeParam(clay(0.25, 0.1)), steps, 1e-12);
 }
 
 TYPED_TEST(MaterialsUndrainedClay, FasterShearMeetsMoreStrength)

@@ -383,8 +383,8 @@ TYPED_TEST(PorousForceTest, NothingMovesInAFreeFall)
       state = {};
       for (int d = 0; d < dim; ++d)
         {
-          state.elastic_frame[d][d] = state.squared_stretch[d] = 1.;
-          state.left_cauchy_green[symmetric_index<dim>(d, d)]  = 1.;
+          state.elastic_frame[d][d] = state.squared_stretch[d]        = 1.;
+          state.elastic_left_cauchy_green[symmetric_index<dim>(d, d)] = 1.;
         }
     }
   std::fill(problem.pores.pressure.begin(), problem.pores.pressure.end(), 0.);

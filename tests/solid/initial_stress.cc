@@ -65,7 +65,6 @@ TYPED_TEST(SolidInitialStress, StaysWhereNothingMoves)
       const auto      &state             = points[0].record.state;
       const auto       stress            = make_stress_state<dim>(state.elastic_frame,
                                                  state.out_of_plane_elastic_stretch,
-                                                 state.deformation_gradient,
                                                  state.kirchhoff_stress);
       const double     at_rest[dim][dim] = {};
       PointUpdate<dim> update;

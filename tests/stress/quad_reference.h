@@ -141,10 +141,10 @@ namespace kedge::reference
     return combine(1 << n_roots, sum, 0, sum);
   }
 
-  /** A committed state: b^e_n, b_n of the total deformation, alpha_n and sigma_y. */
+  /** A committed state: b^e_n, alpha_n and sigma_y. */
   struct State
   {
-    Matrix elastic_left_cauchy_green, left_cauchy_green;
+    Matrix elastic_left_cauchy_green;
     Quad   equivalent_plastic_strain = 0;
     Quad   yield_stress              = 0;
   };
@@ -272,7 +272,7 @@ namespace kedge::reference
     const Matrix pull = inverse(F);
     const Matrix mean =
       combine(0.5, begin.kirchhoff_stress, 0.5, pull * end.kirchhoff_stress * transpose(pull));
-    const Matrix N      = state.left_cauchy_green * E * state.left_cauchy_green;
+    const Matrix N      = state.elastic_left_cauchy_green * E * state.elastic_left_cauchy_green;
     const Quad   work   = end.work_since(begin);
     const Quad   square = contract(E, N);
     const Quad   q      = square == 0 ? Quad(0) : (2 * work - contract(mean, E)) / square;
@@ -298,17 +298,13 @@ namespace kedge::reference
   inline State
   reference_state(const PointState<dim> &point)
   {
-    Matrix B = Matrix::identity(), F = Matrix::identity();
+    Matrix B = Matrix::identity();
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j)
-        {
-          B[i][j] = point.elastic_frame[i][j];
-          F[i][j] = point.deformation_gradient[i][j];
-        }
+        B[i][j] = point.elastic_frame[i][j];
     if (dim == 2)
       B[2][2] = point.out_of_plane_elastic_stretch;
     return {B * transpose(B),
-            F * transpose(F),
             point.memory[memory_index("equivalent_plastic_strain")],
             point.memory[memory_index("yield_stress")]};
   }

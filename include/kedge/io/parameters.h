@@ -36,15 +36,23 @@ namespace kedge
   /** What a check makes of the values of a column. */
   enum class CheckStatistic
   {
-    at,         ///< value at `time`, linear between rows
-    last,       ///< value of the last row
-    minimum,    ///< over rows with time >= `time`
-    maximum,    ///< over rows with time >= `time`
-    max_abs,    ///< over rows with time >= `time`
-    drift,      ///< max |v - v(first row with time >= `time`)|, over the same rows
-    period,     ///< twice the mean spacing of the zero crossings after `time`
-    point_error ///< sum_p |v_p - exact(X_p)| V0_p / sum V0_p of a point field, at the end
+    at,            ///< value at `time`, linear between rows
+    last,          ///< value of the last row
+    minimum,       ///< over rows with time >= `time`
+    maximum,       ///< over rows with time >= `time`
+    max_abs,       ///< over rows with time >= `time`
+    drift,         ///< max |v - v(first row with time >= `time`)|, over the same rows
+    period,        ///< twice the mean spacing of the zero crossings after `time`
+    point_error,   ///< sum_p |v_p - exact(X_p)| V0_p / sum V0_p of a point field, at the end
+    point_quantile ///< what `part` of V0 has no more of a point field than, at the end
   };
+
+  /** Whether it is one of the points' fields, not of columns. */
+  inline bool
+  is_of_points(const CheckStatistic statistic)
+  {
+    return statistic == CheckStatistic::point_error || statistic == CheckStatistic::point_quantile;
+  }
 
   /** A known answer of a scene. Passes if |value/scale - reference| <= tolerance (absolute) or <=
    * tolerance*|reference| (relative). */
@@ -55,6 +63,7 @@ namespace kedge
     std::string    column; ///< history.COLUMN, probe.NAME.COLUMN, or a point field's name
     double         time = 0;
     std::string    exact;         ///< expression of X, Y, Z (initial place), for point_error
+    double         part      = 0; ///< of the volume, in (0, 1), for point_quantile [-]
     double         scale     = 1; ///< the value is divided by it
     double         reference = 0;
     double         tolerance = 0;

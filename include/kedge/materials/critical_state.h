@@ -6,8 +6,9 @@
 namespace kedge
 {
   /** p' and what belongs to it of Hencky's law, which knows no pores. */
-  inline VolumetricResponse<>
-  volumetric_response(const Hencky &law, const double strain, const double)
+  template <typename Number>
+  inline VolumetricResponse<Number>
+  volumetric_response(const Hencky &law, const Number &strain, const Number &)
   {
     return {law.bulk_modulus * strain,
             law.bulk_modulus,
@@ -17,8 +18,9 @@ namespace kedge
             0.};
   }
 
-  inline VolumetricResponse<>
-  volumetric_response(const ImprovedHencky &law, const double strain, const double n)
+  template <typename Number>
+  inline VolumetricResponse<Number>
+  volumetric_response(const ImprovedHencky &law, const Number &strain, const Number &n)
   {
     return law.volumetric(strain, n);
   }
@@ -48,7 +50,7 @@ namespace kedge
     static constexpr bool yields               = true;
     static constexpr bool can_fail             = true;
     static constexpr bool decoupled_volume     = false;
-    static constexpr bool takes_packs          = false;
+    static constexpr bool takes_packs          = true;
     static constexpr bool stress_is_work_slope = false;
 
     static constexpr std::array<Column, 3> columns{
@@ -71,35 +73,38 @@ namespace kedge
     }
 
     /** What the law answers to a principal trial strain. */
+    template <typename Number>
     struct Response
     {
-      double kirchhoff_stress[3]; ///< principal values tau'_i [Pa]
-      double work_increment;      ///< dPsi + dD, all stored and dissipated work [J/m^3]
-      double plastic_multiplier;  ///< d lambda = dD [J/m^3]; 0 in an elastic step
-      double plastic_volume;      ///< d eps_v^p
-      double plastic_shear;       ///< d eps_s^p = |dev d eps^p|
-      double flow[3];             ///< n = dev tau/|dev tau|; 0 without shear
-      double volume_strain;       ///< ln J at the end [-]
+      Number kirchhoff_stress[3]; ///< principal values tau'_i [Pa]
+      Number work_increment;      ///< dPsi + dD, all stored and dissipated work [J/m^3]
+      Number plastic_multiplier;  ///< d lambda = dD [J/m^3]; 0 in an elastic step
+      Number plastic_volume;      ///< d eps_v^p
+      Number plastic_shear;       ///< d eps_s^p = |dev d eps^p|
+      Number flow[3];             ///< n = dev tau/|dev tau|; 0 without shear
+      Number volume_strain;       ///< ln J at the end [-]
 
       /** d(p', rho)/d(tr eps^tr, |dev eps^tr|) [Pa] */
-      double volume_volume, volume_shear, shear_volume, shear_shear;
-      double secant_shear;  ///< rho/|dev eps^tr| [Pa]
-      double work_coupling; ///< (d(dPsi + dD)/d eps^tr - tau) by dp' [-]
+      Number volume_volume, volume_shear, shear_volume, shear_shear;
+      Number secant_shear;  ///< rho/|dev eps^tr| [Pa]
+      Number work_coupling; ///< (d(dPsi + dD)/d eps^tr - tau) by dp' [-]
 
-      unsigned int n_iterations; ///< of the return
-      bool         valid;        ///< false if there is no return; nothing else is set then
+      Number            n_iterations; ///< of the return
+      Condition<Number> valid;        ///< false if there is no return; the rest is of no use then
     };
 
     explicit CriticalState(const MaterialParameters &parameters);
 
-    Response
-    respond(const double (&strain_n)[3],
-            const double (&increment)[3],
-            const History<double> &history) const;
+    template <typename Number>
+    Response<Number>
+    respond(const Number (&strain_n)[3],
+            const Number (&increment)[3],
+            const HistoryOf<CriticalState, Number> &history) const;
 
     /** d tau'_i / d eps^tr_j [Pa], consistent with the return; unsymmetric. */
-    double
-    tangent(const Response &r, const int i, const int j) const
+    template <typename Number>
+    Number
+    tangent(const Response<Number> &r, const int i, const int j) const
     {
       return r.volume_volume + r.volume_shear * r.flow[j] + r.shear_volume * r.flow[i] +
              (r.shear_shear - r.secant_shear) * r.flow[i] * r.flow[j] +
@@ -107,36 +112,41 @@ namespace kedge
     }
 
     /** (tau_i - tau_j) / (eps^tr_i - eps^tr_j) of two principal directions [Pa]. */
-    double
-    secant_shear(const Response &r, const int, const int) const
+    template <typename Number>
+    Number
+    secant_shear(const Response<Number> &r, const int, const int) const
     {
       return r.secant_shear;
     }
 
     /** d(dPsi + dD)/d eps^tr_i [Pa], which is not tau'_i while A and B change. */
-    double
-    work_slope(const Response &r, const int i) const
+    template <typename Number>
+    Number
+    work_slope(const Response<Number> &r, const int i) const
     {
       return r.kirchhoff_stress[i] +
              r.work_coupling * (r.volume_volume + r.volume_shear * r.flow[i]);
     }
 
     /** Elastic free energy [J/m^3]; the history gives ln J of the same state. */
-    double
-    energy(const double (&elastic_strain)[3], const History<double> &history) const
+    template <typename Number>
+    Number
+    energy(const Number (&elastic_strain)[3], const HistoryOf<CriticalState, Number> &history) const
     {
-      return elastic.energy(elastic_strain, of_elasticity(history));
+      return elastic.energy(elastic_strain, of_elasticity<Number>(history));
     }
 
     /** Part of the strain increment in direction i that is plastic [-]. */
-    double
-    plastic_increment(const Response &r, const int i) const
+    template <typename Number>
+    Number
+    plastic_increment(const Response<Number> &r, const int i) const
     {
       return r.plastic_volume / 3. + r.plastic_shear * r.flow[i];
     }
 
-    History<double>
-    updated(const Response &r, const History<double> &history) const
+    template <typename Number>
+    History<Number>
+    updated(const Response<Number> &r, const HistoryOf<CriticalState, Number> &history) const
     {
       return {history.equivalent_plastic_strain + std::sqrt(2. / 3.) * r.plastic_shear,
               history.plastic_volume_strain + r.plastic_volume,
@@ -144,15 +154,17 @@ namespace kedge
     }
 
     /** Frozen energy Psi_2 = -a_0 eps_v^p or 0 [J/m^3]. */
-    double
-    hardening_energy(const History<double> &history) const
+    template <typename Number>
+    Number
+    hardening_energy(const History<Number> &history) const
     {
       return -shift * history.plastic_volume_strain;
     }
 
     /** dD of the step [J/m^3]. */
-    double
-    dissipation(const Response &r) const
+    template <typename Number>
+    Number
+    dissipation(const Response<Number> &r) const
     {
       return r.plastic_multiplier;
     }
@@ -164,17 +176,19 @@ namespace kedge
     }
 
     /** The yield function and what it is made of, at a strain and porosity. */
+    template <typename Number>
     struct Surface
     {
-      VolumetricResponse<> volume;
-      double               phi, rho; ///< dissipative stresses [Pa]
-      double               A, B;     ///< half axes [Pa]
-      double               excess;   ///< f = sqrt((phi/A)^2 + (rho/B)^2) - 1 [-]
+      VolumetricResponse<Number> volume;
+      Number                     phi, rho; ///< dissipative stresses [Pa]
+      Number                     A, B;     ///< half axes [Pa]
+      Number                     excess;   ///< f = sqrt((phi/A)^2 + (rho/B)^2) - 1 [-]
     };
 
     /** @param shear |dev eps^e| */
-    Surface
-    surface(const double volume_strain, const double shear, const double n) const;
+    template <typename Number>
+    Surface<Number>
+    surface(const Number &volume_strain, const Number &shear, const Number &n) const;
 
     const Elasticity elastic;
     const double     bulk_modulus;         ///< undeformed [Pa]
@@ -185,11 +199,13 @@ namespace kedge
     const double     critical_state_slope; ///< M = rho/P at the critical state [-]
 
   private:
+    template <typename Number>
     struct Return;
 
     /** What the elastic law answers by. */
-    static HistoryOf<Elasticity>
-    of_elasticity(const History<double> &history)
+    template <typename Number>
+    static HistoryOf<Elasticity, Number>
+    of_elasticity(const History<Number> &history)
     {
       if constexpr (has_columns<Elasticity>)
         return {history.volume_strain};
@@ -197,21 +213,28 @@ namespace kedge
         return {};
     }
 
-    double
-    porosity_at(const double volume_strain) const;
+    template <typename Number>
+    Number
+    porosity_at(const Number &volume_strain) const;
 
-    bool
-    return_to_surface(const double trial_volume,
-                      const double trial_shear,
-                      const double n,
-                      Return      &result) const;
+    /** In the lanes that are @p asked; where there is one. */
+    template <typename Number>
+    Condition<Number>
+    return_to_surface(const Condition<Number> &asked,
+                      const Number            &trial_volume,
+                      const Number            &trial_shear,
+                      const Number            &n,
+                      Return<Number>          &result) const;
 
+    /** In the lanes @p where there is a return. */
+    template <typename Number>
     void
-    set_plastic(const Return &result,
-                const double  trial_volume,
-                const double  trial_shear,
-                const double  n,
-                Response     &response) const;
+    set_plastic(const Condition<Number> &where,
+                const Return<Number>    &result,
+                const Number            &trial_volume,
+                const Number            &trial_shear,
+                const Number            &n,
+                Response<Number>        &response) const;
   };
 } // namespace kedge
 

@@ -1,6 +1,7 @@
 #ifndef kedge_materials_drucker_prager_h
 #define kedge_materials_drucker_prager_h
 
+#include <kedge/materials/closing_of_cracks.h>
 #include <kedge/materials/friction.h>
 #include <kedge/materials/hencky_plasticity.h>
 
@@ -18,7 +19,8 @@ namespace kedge
    *   r(L) = J_2^tr S^2/(S + G L)^2 + e^2 - S^2 = 0,
    *   P = P^tr - 3 K beta L,  s = S/(S + G L) s^tr,
    * bracketed and found by Newton's method. What stays beyond the cut-off goes to it
-   * (P = P_t), along it to the corner if the cone is in the way. dD >= 0 since beta <= alpha.
+   * (P = P_t), along it to the corner if the cone is in the way; it has been torn open then, and
+   * bears pressure again when it has closed (ClosingOfCracks). dD >= 0 since beta <= alpha.
    * The cohesion, and with it k, e and P_t, may differ from place to place.
    */
   class DruckerPrager : public HenckyPlasticity<DruckerPrager>
@@ -28,11 +30,12 @@ namespace kedge
     static constexpr bool takes_packs        = true;
     static constexpr bool stiffness_of_place = true;
 
-    static constexpr std::array<Column, 4> columns{
+    static constexpr std::array<Column, 5> columns{
       {{"equivalent_plastic_strain", "-", "accumulated"},
        {"plastic_volume_strain", "-", "positive where the pores open"},
        {"cohesion", "Pa", "c of the place", ColumnKind::of_place},
-       {"stiffness", "-", "factor of both moduli, of the place", ColumnKind::of_place}}};
+       {"stiffness", "-", "factor of both moduli, of the place", ColumnKind::of_place},
+       {"opening", "-", "volume strain by which tension has torn it open"}}};
 
     template <typename Number>
     struct History
@@ -41,12 +44,13 @@ namespace kedge
       Number plastic_volume_strain     = 0.; ///< positive where the pores open [-]
       Number cohesion                  = 0.; ///< c [Pa]
       Number stiffness                 = 1.; ///< of both moduli [-]
+      Number opening                   = 0.; ///< volume strain by tension, to be closed first [-]
     };
 
-    static std::array<const SpatialConstant *, 4>
+    static std::array<const SpatialConstant *, 5>
     constants(const MaterialParameters &parameters)
     {
-      return {{nullptr, nullptr, &parameters.cohesion, &parameters.stiffness_factor}};
+      return {{nullptr, nullptr, &parameters.cohesion, &parameters.stiffness_factor, nullptr}};
     }
 
     explicit DruckerPrager(const MaterialParameters &parameters)
@@ -63,26 +67,24 @@ namespace kedge
                   Response<Number>      &response) const
     {
       using std::sqrt;
-      const double K = bulk_modulus, G = elastic.shear_modulus;
-      const double al = cone.friction, be = cone.dilation;
-      const Number P0 = (trial[0] + trial[1] + trial[2]) / 3.;
-      Number       s0[3], J = 0.;
-      for (int i = 0; i < 3; ++i)
-        {
-          s0[i] = trial[i] - P0;
-          J += 0.5 * s0[i] * s0[i];
-        }
-      const Number k = cone.strength * history.cohesion, e = rounding * k;
-      const Number P_t = cut_off * (k - e) / (3. * al), S0 = sqrt(J + e * e);
+      const double                  K = bulk_modulus, G = elastic.shear_modulus;
+      const double                  al = cone.friction, be = cone.dilation;
+      const Number                  mean = (trial[0] + trial[1] + trial[2]) / 3.;
+      const ClosingOfCracks<Number> closing(mean, K, history.opening);
+      const Number                  P0 = closing.mean;
+      Number                        s0[3];
+      const Number                  J = second_invariant(trial, mean, s0);
+      const Number                  k = cone.strength * history.cohesion, e = rounding * k;
+      const Number                  P_t = cut_off * (k - e) / (3. * al), S0 = sqrt(J + e * e);
 
       const auto yields = 3. * al * P0 + S0 - k > 0.;
       const auto torn   = P0 > P_t;
-      if (!any(yields || torn))
+      if (!any(yields || torn || closing.change > 0.))
         return;
 
       // what the stress becomes: P = pressure, s = factor s0, and their slopes by
       // the volume strain and by s0 : de
-      Number       pressure = P0, factor = 1., P_v = K, P_s = 0., f_v = 0., f_s = 0.;
+      Number pressure = P0, factor = 1., P_v = K * closing.slope, P_s = 0., f_v = 0., f_s = 0.;
       const Number start = k - 3. * al * P0, growth = 9. * K * al * be;
       Number       L = 0.;
       if (any(yields))
@@ -95,13 +97,14 @@ namespace kedge
           const Number r_L     = 2. * J * th * (th_S * growth + th_L) - 2. * S * growth;
           const Number r_P     = -3. * al * (2. * J * th * th_S - 2. * S);
           const Number divisor = select(yields, r_L, Number(1.));
-          const Number L_v = -r_P * K / divisor, L_s = -th * th * 2. * G / divisor;
+          const Number L_v = -r_P * K * closing.slope / divisor, L_s = -th * th * 2. * G / divisor;
           pressure = select(yields, P0 - 3. * K * be * L, pressure);
           factor   = th;
-          P_v      = select(yields, K - 3. * K * be * L_v, P_v);
+          P_v      = select(yields, K * closing.slope - 3. * K * be * L_v, P_v);
           P_s      = select(yields, -3. * K * be * L_s, P_s);
-          f_v      = select(yields, (th_S * growth + th_L) * L_v - 3. * al * K * th_S, f_v);
-          f_s      = select(yields, (th_S * growth + th_L) * L_s, f_s);
+          f_v =
+            select(yields, (th_S * growth + th_L) * L_v - 3. * al * K * closing.slope * th_S, f_v);
+          f_s = select(yields, (th_S * growth + th_L) * L_s, f_s);
         }
       const auto cut = pressure > P_t || (torn && !yields) || (torn && !response.valid);
       if (any(cut))
@@ -121,7 +124,8 @@ namespace kedge
           f_s            = select(corner, -G * th / (norm * norm), select(cut, Number(0.), f_s));
           response.valid = response.valid || cut;
         }
-      set_return(s0, P0, pressure, factor, P_v, P_s, f_v, f_s, response);
+      response.opening = select(cut, (P0 - P_t) / K, Number(0.)) - closing.change;
+      set_return(s0, mean, pressure, factor, P_v, P_s, f_v, f_s, response);
     }
 
     template <typename Number>
@@ -132,7 +136,8 @@ namespace kedge
               history.plastic_volume_strain + response.plastic_strain[0] +
                 response.plastic_strain[1] + response.plastic_strain[2],
               history.cohesion,
-              history.stiffness};
+              history.stiffness,
+              history.opening + response.opening};
     }
 
     const MatchedCone cone;
@@ -140,6 +145,20 @@ namespace kedge
     const double      cut_off;  ///< t, of the apex of the cone, in [0, 1] [-]
 
   private:
+    /** J_2 and the deviator of principal stresses. */
+    template <typename Number>
+    static Number
+    second_invariant(const Number (&stress)[3], const Number &mean, Number (&deviator)[3])
+    {
+      Number J = 0.;
+      for (int i = 0; i < 3; ++i)
+        {
+          deviator[i] = stress[i] - mean;
+          J += 0.5 * deviator[i] * deviator[i];
+        }
+      return J;
+    }
+
     /**
      * L of the cone, in the lanes that @p yields; says where there is one. r > 0 at the
      * lower bound of the bracket and r < 0 at its upper one.
@@ -173,8 +192,9 @@ namespace kedge
       high = select(yields && exists, high, Number(0.));
       low  = select(yields && exists, low, Number(0.));
       // at S = e = 0 the equation holds by itself
-      L                 = select(within, low, 0.5 * (low + high));
-      const auto solves = yields && exists;
+      L                        = select(within, low, 0.5 * (low + high));
+      const auto        solves = yields && exists;
+      Condition<Number> open   = solves;
       for (int iteration = 0; iteration < most_iterations; ++iteration)
         {
           const Number S   = select(solves, start + growth * L, Number(1.));
@@ -189,9 +209,10 @@ namespace kedge
           const Number newton   = L - r / select(falls, slope, Number(1.));
           const auto   inside   = falls && newton >= low && newton <= high;
           const Number next     = select(inside, newton, 0.5 * (low + high));
-          const Number change   = select(solves && abs(r) > 0., next - L, Number(0.));
+          const Number change   = select(open && abs(r) > 0., next - L, Number(0.));
           L += change;
-          if (!any(abs(change) > 1e-15 * abs(L)))
+          open = open && abs(change) > 1e-15 * abs(L);
+          if (!any(open))
             break;
         }
       return !yields || exists;

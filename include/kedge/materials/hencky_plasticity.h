@@ -16,6 +16,7 @@ namespace kedge
     Number            tangent[3][3];       ///< d tau_i/d eps^tr_j [Pa]
     Number            dissipation;         ///< dD = tau : d eps^p [J/m^3]
     Number            softening_strain;    ///< by how much what it softens by has grown [-]
+    Number            opening;             ///< by how much it has been torn open, or closed [-]
     Condition<Number> valid;               ///< false if there is no return
   };
 
@@ -62,6 +63,7 @@ namespace kedge
             response.tangent[i][j] = elastic.tangent(trial, i, j);
         }
       response.softening_strain = 0.;
+      response.opening          = 0.;
       response.valid            = response.softening_strain <= 0.;
       law().return_stress(trial.kirchhoff_stress, softer(history), response);
 

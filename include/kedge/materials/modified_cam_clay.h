@@ -1,12 +1,12 @@
 #ifndef kedge_materials_modified_cam_clay_h
 #define kedge_materials_modified_cam_clay_h
 
+#include <kedge/materials/cam_clay_return.h>
 #include <kedge/materials/history.h>
 #include <kedge/materials/parameters.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kedge
 {
@@ -23,7 +23,7 @@ namespace kedge
    * bears nothing else is in equilibrium; kappa and lambda are slopes by logarithmic
    * strain, those by the void ratio over 1 + e_0.
    *
-   * The step is returned by backward Euler in (e_v, e_s, L, ln p_c):
+   * The step is returned by backward Euler (CamClayReturn) in (e_v, e_s, L, ln p_c):
    *   e_v - e_v^tr + L (2 p - p_c) = 0,  e_s - e_s^tr + 2 L q/M^2 = 0,  f = 0,
    *   ln p_c - ln p_c,n - L (2 p - p_c)/(lambda - kappa) = 0.
    */
@@ -33,7 +33,7 @@ namespace kedge
     static constexpr bool yields               = true;
     static constexpr bool can_fail             = true;
     static constexpr bool decoupled_volume     = false;
-    static constexpr bool takes_packs          = false;
+    static constexpr bool takes_packs          = true;
     static constexpr bool stress_is_work_slope = false;
 
     static constexpr std::array<Column, 3> columns{
@@ -59,16 +59,16 @@ namespace kedge
     template <typename Number>
     struct Response
     {
-      Number kirchhoff_stress[3]; ///< principal values tau'_i [Pa]
-      Number work_increment;      ///< dPsi + dD, all stored and dissipated work [J/m^3]
-      Number dissipation;         ///< dD [J/m^3]
-      Number flow[3];             ///< dev eps^tr/|dev eps^tr|; 0 without shear
-      Number plastic_volume;      ///< -tr d eps^p: positive in compression [-]
-      Number plastic_shear;       ///< sqrt(2/3) |dev d eps^p| [-]
-      Number preconsolidation;    ///< p_c at the end [Pa]
-      Number p_v, p_s, q_v, q_s;  ///< d(p, q)/d(e_v^tr, e_s^tr) [Pa]
-      Number shear_secant;        ///< (tau_i - tau_j)/(eps^tr_i - eps^tr_j) [Pa]
-      bool   valid;               ///< false if there is no return; nothing else is set then
+      Number            kirchhoff_stress[3]; ///< principal values tau'_i [Pa]
+      Number            work_increment;      ///< dPsi + dD, all stored and dissipated work [J/m^3]
+      Number            dissipation;         ///< dD [J/m^3]
+      Number            flow[3];             ///< dev eps^tr/|dev eps^tr|; 0 without shear
+      Number            plastic_volume;      ///< -tr d eps^p: positive in compression [-]
+      Number            plastic_shear;       ///< sqrt(2/3) |dev d eps^p| [-]
+      Number            preconsolidation;    ///< p_c at the end [Pa]
+      Number            p_v, p_s, q_v, q_s;  ///< d(p, q)/d(e_v^tr, e_s^tr) [Pa]
+      Number            shear_secant;        ///< (tau_i - tau_j)/(eps^tr_i - eps^tr_j) [Pa]
+      Condition<Number> valid; ///< false if there is no return; the rest is of no use then
     };
 
     explicit ModifiedCamClay(const MaterialParameters &parameters)
@@ -123,24 +123,30 @@ namespace kedge
         }
       const Number norm = sqrt(square);
       for (int i = 0; i < 3; ++i)
-        r.flow[i] = norm > 0. ? Number((deviator_n[i] + deviator_d[i]) / norm) : Number(0.);
+        r.flow[i] = select(norm > 0.,
+                           (deviator_n[i] + deviator_d[i]) / select(norm > 0., norm, Number(1.)),
+                           Number(0.));
 
-      Trial<Number> trial;
+      typename CamClayReturn<Number>::Trial trial;
       trial.volume = -(trace_n + trace_d);
       trial.q      = 3. * shear_modulus * sqrt(Number(2.) / 3.) * norm;
       trial.p_c    = history.preconsolidation_pressure;
       trial.c      = 6. * shear_modulus /
                 (critical_state_ratio * critical_state_ratio * history.preconsolidation_pressure);
       Number plastic = 0., multiplier = 0.; // volume, and L p_c,n
-      r.valid = trial.p_c > 0. && return_to_surface(trial, plastic, multiplier);
-      if (!r.valid)
+      r.valid = trial.p_c > 0.;
+      const CamClayReturn<Number> way_back(
+        {reference_pressure, kappa, lambda - kappa, critical_state_ratio},
+        trial);
+      r.valid = way_back.find(r.valid, plastic, multiplier);
+      if (!any(r.valid))
         return r;
       const Number p     = pressure(Number(trial.volume - plastic));
       const Number q     = trial.q / (1. + trial.c * multiplier);
       r.plastic_volume   = plastic;
       r.plastic_shear    = trial.c * multiplier * q / (3. * shear_modulus);
       r.preconsolidation = trial.p_c * exp(plastic / (lambda - kappa));
-      set_slopes(trial, p, q, multiplier, r);
+      set_slopes(trial, way_back.equations(plastic, multiplier), p, q, multiplier, r);
 
       // energies from increments, or they cancel in small steps
       const Number p_n    = pressure(Number(-trace_n));
@@ -250,141 +256,35 @@ namespace kedge
                                             ///< through the initial stress
 
   private:
-    /** What the return starts from. */
-    template <typename Number>
-    struct Trial
-    {
-      Number volume; ///< e_v^tr
-      Number q;      ///< 3 G e_s^tr [Pa]
-      Number p_c;    ///< p_c,n [Pa]
-      Number c;      ///< q = q^tr/(1 + c m), m = L p_c,n
-    };
-
-    /** The equations at a plastic volume strain and a multiplier m = L p_c,n. */
-    template <typename Number>
-    struct Equations
-    {
-      Number volume, surface;    ///< m (2 p - p_c)/p_c,n - d e_v^p, and f/p_c,n^2
-      Number volume_v, volume_m; ///< derivatives by d e_v^p and m
-      Number surface_v, surface_m;
-    };
-
-    template <typename Number>
-    Equations<Number>
-    equations(const Trial<Number> &trial, const Number &plastic, const Number &m) const
-    {
-      using std::exp;
-      const Number p = pressure(Number(trial.volume - plastic)), p_slope = -p / kappa;
-      const Number p_c       = trial.p_c * exp(plastic / (lambda - kappa)),
-                   p_c_slope = p_c / (lambda - kappa);
-      const Number q         = trial.q / (1. + trial.c * m);
-      const double M_2       = critical_state_ratio * critical_state_ratio;
-      const Number size      = trial.p_c * trial.p_c;
-      return {m * (2. * p - p_c) / trial.p_c - plastic,
-              (q * q / M_2 + p * (p - p_c)) / size,
-              m * (2. * p_slope - p_c_slope) / trial.p_c - 1.,
-              (2. * p - p_c) / trial.p_c,
-              (p_slope * (2. * p - p_c) - p * p_c_slope) / size,
-              -2. * q * q * trial.c / ((1. + trial.c * m) * M_2 * size)};
-    }
-
-    /** The plastic volume strain of a multiplier: the first equation falls by it. */
-    template <typename Number>
-    bool
-    solve_volume(const Trial<Number> &trial, const Number &m, Number &plastic) const
-    {
-      constexpr int most_iterations = 200;
-      for (int iteration = 0; iteration < most_iterations; ++iteration)
-        {
-          const auto   at     = equations(trial, plastic, m);
-          const Number change = -at.volume / at.volume_v;
-          // exponentials: no further than they are nearly straight
-          const Number most = 0.5 * kappa;
-          plastic += change > most ? most : change < -most ? Number(-most) : change;
-          const Number size = 64. * std::numeric_limits<Number>::epsilon() *
-                              ((plastic < 0. ? Number(-plastic) : plastic) + kappa);
-          if (change * change <= size * size)
-            return true;
-        }
-      return false;
-    }
-
-    template <typename Number>
-    bool
-    return_to_surface(const Trial<Number> &trial, Number &plastic, Number &m) const
-    {
-      constexpr int most_iterations = 200;
-      // f of a stress on the surface, from strains over kappa
-      const Number on_surface = 100. * std::numeric_limits<Number>::epsilon();
-      if (!(equations(trial, Number(0.), Number(0.)).surface > on_surface))
-        return true;
-      // f > 0 at low; double high until f < 0 there
-      Number low = 0., high = kappa;
-      for (int doubling = 0;; ++doubling)
-        {
-          Number volume = plastic;
-          if (doubling == most_iterations || !solve_volume(trial, high, volume))
-            return false;
-          if (equations(trial, volume, high).surface < 0.)
-            break;
-          plastic = volume;
-          low     = high;
-          high *= 2.;
-        }
-      m = low;
-      for (int iteration = 0; iteration < most_iterations; ++iteration)
-        {
-          if (!solve_volume(trial, m, plastic))
-            return false;
-          const auto at                  = equations(trial, plastic, m);
-          (at.surface > 0. ? low : high) = m;
-          const Number slope             = at.surface_m - at.surface_v * at.volume_m / at.volume_v;
-          Number       next = slope < 0. ? Number(m - at.surface / slope) : Number(-1.);
-          if (!(next > low && next < high))
-            next = next == low || next == high ? next : Number(0.5 * (low + high));
-          const Number change = next - m;
-          m                   = next;
-          // round-off of f, of order 1, over its slope
-          const Number round_off = slope < 0. ? Number(-1. / slope) : Number(0.);
-          const Number size      = 16. * std::numeric_limits<Number>::epsilon() * (m + round_off);
-          if (change * change <= size * size || high - low <= size)
-            return solve_volume(trial, m, plastic);
-        }
-      return false;
-    }
-
     /** d(p, q)/d(e_v^tr, e_s^tr) of the equations that define the return. */
     template <typename Number>
     void
-    set_slopes(const Trial<Number> &trial,
-               const Number        &p,
-               const Number        &q,
-               const Number        &m,
-               Response<Number>    &r) const
+    set_slopes(const typename CamClayReturn<Number>::Trial     &trial,
+               const typename CamClayReturn<Number>::Equations &at,
+               const Number                                    &p,
+               const Number                                    &q,
+               const Number                                    &m,
+               Response<Number>                                &r) const
     {
-      const double G   = shear_modulus;
-      const Number one = 1. + trial.c * m;
-      r.shear_secant   = 2. * G / one;
-      r.p_v            = p / kappa;
-      r.p_s = r.q_v = 0.;
-      r.q_s         = 3. * G;
-      if (!(m > 0.))
-        return;
-      const auto   at  = equations(trial, r.plastic_volume, m);
-      const double M_2 = critical_state_ratio * critical_state_ratio;
+      const double G     = shear_modulus;
+      const Number one   = 1. + trial.c * m;
+      r.shear_secant     = 2. * G / one;
+      const auto   flows = m > 0.;
+      const double M_2   = critical_state_ratio * critical_state_ratio;
       const Number p_c = r.preconsolidation, size = trial.p_c * trial.p_c;
       // by e_v^tr at fixed d e_v^p: dp = p/kappa; by e_s^tr: dq = 3 G/one
       const Number volume_t  = 2. * m * p / (kappa * trial.p_c);
       const Number surface_t = p * (2. * p - p_c) / (kappa * size);
       const Number surface_s = 2. * q * 3. * G / (one * M_2 * size);
-      const Number det       = at.volume_v * at.surface_m - at.volume_m * at.surface_v;
-      const Number v_v       = (-volume_t * at.surface_m + at.volume_m * surface_t) / det;
-      const Number m_v       = (-at.volume_v * surface_t + at.surface_v * volume_t) / det;
+      const Number det =
+        select(flows, at.volume_v * at.surface_m - at.volume_m * at.surface_v, Number(1.));
+      const Number v_v = (-volume_t * at.surface_m + at.volume_m * surface_t) / det;
+      const Number m_v = (-at.volume_v * surface_t + at.surface_v * volume_t) / det;
       const Number v_s = at.volume_m * surface_s / det, m_s = -at.volume_v * surface_s / det;
-      r.p_v = p / kappa * (1. - v_v);
-      r.p_s = -p / kappa * v_s;
-      r.q_v = -q * trial.c / one * m_v;
-      r.q_s = 3. * G / one - q * trial.c / one * m_s;
+      r.p_v = select(flows, p / kappa * (1. - v_v), p / kappa);
+      r.p_s = select(flows, -p / kappa * v_s, Number(0.));
+      r.q_v = select(flows, -q * trial.c / one * m_v, Number(0.));
+      r.q_s = select(flows, 3. * G / one - q * trial.c / one * m_s, Number(3. * G));
     }
   };
 } // namespace kedge

@@ -1,11 +1,15 @@
 #ifndef kedge_materials_mohr_coulomb_h
 #define kedge_materials_mohr_coulomb_h
 
+#include <kedge/materials/closing_of_cracks.h>
 #include <kedge/materials/friction.h>
 #include <kedge/materials/hencky_plasticity.h>
+#include <kedge/materials/lane.h>
 #include <kedge/materials/principal_order.h>
 
+#include <algorithm>
 #include <limits>
+#include <type_traits>
 
 namespace kedge
 {
@@ -20,21 +24,23 @@ namespace kedge
    *   m = (A D_e N)^{-1} (A tau^tr - c'),  tau = tau^tr - D_e N m,
    *   d tau/d eps^tr = D_e - D_e N (A D_e N)^{-1} A D_e,
    * exactly. Faces, edges and corners are tried in turn, until the multipliers m
-   * are positive, the stresses in their order and no plane is crossed. dD >= 0
-   * since psi <= phi. Points are answered one by one.
+   * are positive, the stresses in their order and no plane is crossed. The matrices
+   * are the same for all points and made once. What the cut-off has torn open bears pressure again
+   * when it has closed (ClosingOfCracks). dD >= 0 since psi <= phi.
    */
   class MohrCoulomb : public HenckyPlasticity<MohrCoulomb>
   {
   public:
     static constexpr bool decoupled_volume   = false;
-    static constexpr bool takes_packs        = false;
+    static constexpr bool takes_packs        = true;
     static constexpr bool stiffness_of_place = true;
 
-    static constexpr std::array<Column, 4> columns{
+    static constexpr std::array<Column, 5> columns{
       {{"equivalent_plastic_strain", "-", "accumulated"},
        {"plastic_volume_strain", "-", "positive where the pores open"},
        {"cohesion", "Pa", "c of the place", ColumnKind::of_place},
-       {"stiffness", "-", "factor of both moduli, of the place", ColumnKind::of_place}}};
+       {"stiffness", "-", "factor of both moduli, of the place", ColumnKind::of_place},
+       {"opening", "-", "volume strain by which tension has torn it open"}}};
 
     template <typename Number>
     struct History
@@ -43,12 +49,13 @@ namespace kedge
       Number plastic_volume_strain     = 0.; ///< positive where the pores open [-]
       Number cohesion                  = 0.; ///< c [Pa]
       Number stiffness                 = 1.; ///< of both moduli [-]
+      Number opening                   = 0.; ///< volume strain by tension, to be closed first [-]
     };
 
-    static std::array<const SpatialConstant *, 4>
+    static std::array<const SpatialConstant *, 5>
     constants(const MaterialParameters &parameters)
     {
-      return {{nullptr, nullptr, &parameters.cohesion, &parameters.stiffness_factor}};
+      return {{nullptr, nullptr, &parameters.cohesion, &parameters.stiffness_factor, nullptr}};
     }
 
     explicit MohrCoulomb(const MaterialParameters &parameters)
@@ -57,6 +64,7 @@ namespace kedge
       , cos_friction(std::cos(parameters.friction_angle * radians_per_degree))
       , sin_dilation(std::sin(parameters.dilation_angle * radians_per_degree))
       , cut_off(parameters.tension_cut_off)
+      , active(all_active_planes<double>())
     {}
 
     template <typename Number>
@@ -65,41 +73,44 @@ namespace kedge
                   const History<Number> &history,
                   Response<Number>      &response) const
     {
-      Return<Number> at;
-      at.order = falling_order(trial);
-      for (int i = 0; i < 3; ++i)
-        at.trial[i] = trial[at.order[i]];
-      const Number excess = 2. * history.cohesion * cos_friction;
-      const Number apex   = history.cohesion * cos_friction / sin_friction;
-      for (int plane = 0; plane < n_planes; ++plane)
-        at.bound[plane] = plane < 3 ? excess : Number(cut_off * apex);
-      at.scale = 0.;
-      for (const Number &value : at.trial)
-        at.scale += value < 0. ? Number(-value) : value;
-
-      if (is_admissible(at.trial, at, 0.))
+      FallingOrder<Number>          order(trial);
+      const ClosingOfCracks<Number> closing((trial[0] + trial[1] + trial[2]) / 3.,
+                                            bulk_modulus,
+                                            history.opening);
+      for (Number &value : order.value)
+        value += bulk_modulus * closing.change;
+      const Bounds<Number> bounds(*this, order.value, history);
+      // of stresses and, over the modulus, of multipliers
+      const double tolerance =
+        500. * static_cast<double>(std::numeric_limits<Lane<Number>>::epsilon());
+      Condition<Number> open = crosses(order.value, bounds, 0.);
+      if (!any(open || closing.change > 0.))
         return;
-      for (const auto &planes : active_sets)
-        if (try_planes(planes, at))
-          {
-            set_return(planes, at, response);
-            return;
-          }
-      // all that is left is pulled to the corner of the cut-off
-      at.plastic[0] = at.plastic[1] = at.plastic[2] = 0.;
-      response.valid = at.trial[0] + at.trial[1] + at.trial[2] >= 3. * cut_off * apex;
-      if (response.valid)
+      Return<Number> at;
+      for (const auto &planes : planes_of<Lane<Number>>())
         {
-          const Number mean = (at.trial[0] + at.trial[1] + at.trial[2]) / 3.;
+          if (!any(open))
+            break;
+          if (!planes.meet)
+            continue;
+          Number     change[3];
+          const auto fits = open && returns_to(planes, order.value, bounds, tolerance, change);
+          if (!any(fits))
+            continue;
           for (int i = 0; i < 3; ++i)
             {
-              response.plastic_strain[at.order[i]] =
-                (at.trial[i] - mean) / (2. * elastic.shear_modulus) +
-                (mean - cut_off * apex) / (3. * bulk_modulus);
+              at.plastic[i] = select(fits, change[i], at.plastic[i]);
+              if (planes.tear)
+                at.opening = select(fits, at.opening + change[i], at.opening);
               for (int j = 0; j < 3; ++j)
-                response.tangent[i][j] = 0.;
+                at.softer[i][j] = select(fits, Number(planes.softer[i][j]), at.softer[i][j]);
             }
+          open = open && !fits;
         }
+      if (any(open))
+        response.valid = pull_to_corner(open, order.value, bounds, at);
+      response.opening = at.opening - closing.change;
+      set_return(order, closing, at, response);
     }
 
     template <typename Number>
@@ -110,7 +121,8 @@ namespace kedge
               history.plastic_volume_strain + response.plastic_strain[0] +
                 response.plastic_strain[1] + response.plastic_strain[2],
               history.cohesion,
-              history.stiffness};
+              history.stiffness,
+              history.opening + response.opening};
     }
 
     const double sin_friction, cos_friction, sin_dilation;
@@ -118,37 +130,68 @@ namespace kedge
 
   private:
     /** f_13, f_12, f_23, and the cut-off of tau_1, tau_2, tau_3. */
-    static constexpr int n_planes = 6;
-    using Planes                  = std::array<int, 3>; ///< -1: none
+    static constexpr int n_planes = 6, n_shear_planes = 3;
+    using Planes = std::array<int, 3>; ///< -1: none
 
-    static constexpr std::array<Planes, 19> active_sets{{{{0, -1, -1}},
-                                                         {{0, 1, -1}},
-                                                         {{0, 2, -1}},
-                                                         {{3, -1, -1}},
-                                                         {{0, 3, -1}},
-                                                         {{3, 4, -1}},
-                                                         {{3, 4, 5}},
-                                                         {{0, 1, 3}},
-                                                         {{0, 2, 3}},
-                                                         {{0, 3, 4}},
-                                                         {{0, 2, 4}},
-                                                         {{0, 1, 2}},
-                                                         {{1, 3, -1}},
-                                                         {{1, 3, 4}},
-                                                         {{2, 3, 4}},
-                                                         {{0, 4, 5}},
-                                                         {{0, 3, 5}},
-                                                         {{1, 3, 5}},
-                                                         {{2, 4, 5}}}};
+    static constexpr int                               n_active_sets = 19;
+    static constexpr std::array<Planes, n_active_sets> active_sets{{{{0, -1, -1}},
+                                                                    {{0, 1, -1}},
+                                                                    {{0, 2, -1}},
+                                                                    {{3, -1, -1}},
+                                                                    {{0, 3, -1}},
+                                                                    {{3, 4, -1}},
+                                                                    {{3, 4, 5}},
+                                                                    {{0, 1, 3}},
+                                                                    {{0, 2, 3}},
+                                                                    {{0, 3, 4}},
+                                                                    {{0, 2, 4}},
+                                                                    {{0, 1, 2}},
+                                                                    {{1, 3, -1}},
+                                                                    {{1, 3, 4}},
+                                                                    {{2, 3, 4}},
+                                                                    {{0, 4, 5}},
+                                                                    {{0, 3, 5}},
+                                                                    {{1, 3, 5}},
+                                                                    {{2, 4, 5}}}};
 
+    /** What the planes' functions must not exceed. */
     template <typename Number>
-    struct Return
+    struct Bounds
     {
-      std::array<int, 3> order; ///< where the principal stresses stand, the largest first
-      Number             trial[3], stress[3], plastic[3];
-      Number             bound[n_planes]; ///< c'
-      Number             scale;           ///< of the stresses [Pa]
-      Number             inverse[3][3];   ///< (A D_e N)^{-1}
+      Bounds(const MohrCoulomb &law, const Number (&trial)[3], const History<Number> &history)
+        : excess(2. * history.cohesion * law.cos_friction)
+        , tension(law.cut_off * (history.cohesion * law.cos_friction / law.sin_friction))
+        , scale(0.)
+      {
+        using std::abs;
+        for (const Number &value : trial)
+          scale += abs(value);
+      }
+
+      const Number &
+      of(const int plane) const
+      {
+        return plane < n_shear_planes ? excess : tension;
+      }
+
+      Number excess;  ///< 2 c cos phi [Pa]
+      Number tension; ///< T [Pa]
+      Number scale;   ///< of the stresses [Pa]
+    };
+
+    /** The return to an intersection of planes, the same for all points. */
+    template <typename Scalar>
+    struct ActivePlanes
+    {
+      bool   meet = true; ///< whether there is one
+      bool   tear;        ///< whether one of them is a cut-off
+      int    n = 0;
+      Planes planes;
+      double slope[3][3];   ///< A
+      double flow[3][3];    ///< N
+      Scalar image[3][3];   ///< D_e N
+      Scalar inverse[3][3]; ///< (A D_e N)^{-1}
+      Scalar softer[3][3];  ///< D_e N (A D_e N)^{-1} A D_e
     };
 
     /** Gradient of a plane's function, or of its potential, by tau_1, tau_2, tau_3. */
@@ -158,9 +201,9 @@ namespace kedge
       constexpr int plus[3] = {0, 0, 1}, minus[3] = {2, 1, 2};
       for (double &value : a)
         value = 0.;
-      if (plane >= 3)
+      if (plane >= n_shear_planes)
         {
-          a[plane - 3] = 1.;
+          a[plane - n_shear_planes] = 1.;
           return;
         }
       a[plus[plane]]  = 1. + sine;
@@ -177,73 +220,180 @@ namespace kedge
         result[i] = elastic.lame_modulus * trace + 2. * elastic.shear_modulus * a[i];
     }
 
-    template <typename Number>
-    bool
-    is_admissible(const Number (&stress)[3], const Return<Number> &at, const double tolerance) const
+    template <typename Scalar>
+    ActivePlanes<Scalar>
+    active_planes(const Planes &planes) const
     {
+      ActivePlanes<Scalar> at;
+      at.planes = planes;
+      at.n      = planes[1] < 0 ? 1 : planes[2] < 0 ? 2 : 3;
+      at.tear   = *std::max_element(planes.begin(), planes.end()) >= n_shear_planes;
+      Scalar row[3][3], matrix[3][3];
+      for (int p = 0; p < at.n; ++p)
+        {
+          gradient(planes[p], sin_friction, at.slope[p]);
+          gradient(planes[p], sin_dilation, at.flow[p]);
+          times_elasticity(at.slope[p], row[p]);
+          times_elasticity(at.flow[p], at.image[p]);
+        }
+      for (int p = 0; p < at.n; ++p)
+        for (int q = 0; q < at.n; ++q)
+          {
+            matrix[p][q] = 0.;
+            for (int i = 0; i < 3; ++i)
+              matrix[p][q] += at.slope[p][i] * at.image[q][i];
+          }
+      at.meet = invert(matrix, at.n, at.inverse);
+      for (int i = 0; i < 3 && at.meet; ++i)
+        for (int j = 0; j < 3; ++j)
+          {
+            at.softer[i][j] = 0.;
+            for (int p = 0; p < at.n; ++p)
+              for (int q = 0; q < at.n; ++q)
+                at.softer[i][j] += at.image[p][i] * at.inverse[p][q] * row[q][j];
+          }
+      return at;
+    }
+
+    template <typename Scalar>
+    std::array<ActivePlanes<Scalar>, n_active_sets>
+    all_active_planes() const
+    {
+      std::array<ActivePlanes<Scalar>, n_active_sets> result;
+      for (int set = 0; set < n_active_sets; ++set)
+        result[set] = active_planes<Scalar>(active_sets[set]);
+      return result;
+    }
+
+    /** Those that are kept, or of other numbers, such as those of more digits, made now. */
+    template <typename Scalar>
+    decltype(auto)
+    planes_of() const
+    {
+      if constexpr (std::is_same_v<Scalar, double>)
+        return (active);
+      else
+        return all_active_planes<Scalar>();
+    }
+
+    /** Whether stresses lie beyond a plane or out of their order. */
+    template <typename Number>
+    Condition<Number>
+    crosses(const Number (&stress)[3], const Bounds<Number> &bounds, const double tolerance) const
+    {
+      const Number      margin = tolerance * bounds.scale;
+      Condition<Number> result =
+        !(stress[0] >= stress[1] - margin) || !(stress[1] >= stress[2] - margin);
       for (int plane = 0; plane < n_planes; ++plane)
         {
           double a[3];
           gradient(plane, sin_friction, a);
-          Number f = -at.bound[plane];
+          Number f = -bounds.of(plane);
           for (int i = 0; i < 3; ++i)
             f += a[i] * stress[i];
-          if (f > tolerance * at.scale)
-            return false;
+          result = result || f > margin;
         }
-      return stress[0] >= stress[1] - tolerance * at.scale &&
-             stress[1] >= stress[2] - tolerance * at.scale;
+      return result;
     }
 
-    /** The return to the planes' intersection; whether it is the one. */
-    template <typename Number>
-    bool
-    try_planes(const Planes &planes, Return<Number> &at) const
+    /** The @p plastic strain of the return to the planes; whether it is the one. */
+    template <typename Number, typename Scalar>
+    Condition<Number>
+    returns_to(const ActivePlanes<Scalar> &at,
+               const Number (&trial)[3],
+               const Bounds<Number> &bounds,
+               const double          tolerance,
+               Number (&plastic)[3]) const
     {
-      // of stresses and, over the modulus, of multipliers
-      const double tolerance = 500. * static_cast<double>(std::numeric_limits<Number>::epsilon());
-      const int    n         = planes[1] < 0 ? 1 : planes[2] < 0 ? 2 : 3;
-      double       a[3][3], flow[3][3];
-      Number       image[3][3], matrix[3][3];
-      for (int p = 0; p < n; ++p)
-        {
-          gradient(planes[p], sin_friction, a[p]);
-          gradient(planes[p], sin_dilation, flow[p]);
-          times_elasticity(flow[p], image[p]);
-        }
-      for (int p = 0; p < n; ++p)
-        for (int q = 0; q < n; ++q)
-          {
-            matrix[p][q] = 0.;
-            for (int i = 0; i < 3; ++i)
-              matrix[p][q] += a[p][i] * image[q][i];
-          }
-      if (!invert(matrix, n, at.inverse))
-        return false;
+      Number excess[3], stress[3];
       for (int i = 0; i < 3; ++i)
         {
-          at.stress[i]  = at.trial[i];
-          at.plastic[i] = 0.;
+          stress[i]  = trial[i];
+          plastic[i] = 0.;
         }
-      for (int p = 0; p < n; ++p)
+      for (int q = 0; q < at.n; ++q)
+        {
+          excess[q] = -bounds.of(at.planes[q]);
+          for (int i = 0; i < 3; ++i)
+            excess[q] += at.slope[q][i] * trial[i];
+        }
+      Condition<Number> backwards = bounds.scale < 0.;
+      for (int p = 0; p < at.n; ++p)
         {
           Number m = 0.;
-          for (int q = 0; q < n; ++q)
-            {
-              Number f = -at.bound[planes[q]];
-              for (int i = 0; i < 3; ++i)
-                f += a[q][i] * at.trial[i];
-              m += at.inverse[p][q] * f;
-            }
-          if (m * elastic.shear_modulus < -tolerance * at.scale)
-            return false;
+          for (int q = 0; q < at.n; ++q)
+            m += at.inverse[p][q] * excess[q];
+          backwards = backwards || m * elastic.shear_modulus < -tolerance * bounds.scale;
           for (int i = 0; i < 3; ++i)
             {
-              at.plastic[i] += flow[p][i] * m;
-              at.stress[i] -= image[p][i] * m;
+              plastic[i] += at.flow[p][i] * m;
+              stress[i] -= at.image[p][i] * m;
             }
         }
-      return is_admissible(at.stress, at, tolerance);
+      return !backwards && !crosses(stress, bounds, tolerance);
+    }
+
+    /** What a return changes, by the ranks of the stresses. */
+    template <typename Number>
+    struct Return
+    {
+      Number plastic[3]   = {0., 0., 0.}; ///< strains
+      Number softer[3][3] = {};           ///< what the tangent loses [Pa]
+      Number opening      = 0.;           ///< the part of the cut-off's volume strain
+    };
+
+    /** What no planes return is pulled to the corner of the cut-off; where that is possible. */
+    template <typename Number>
+    Condition<Number>
+    pull_to_corner(const Condition<Number> &open,
+                   const Number (&trial)[3],
+                   const Bounds<Number> &bounds,
+                   Return<Number>       &at) const
+    {
+      const Number mean   = (trial[0] + trial[1] + trial[2]) / 3.;
+      const Number volume = (mean - bounds.tension) / bulk_modulus;
+      for (int i = 0; i < 3; ++i)
+        {
+          const Number shear = (trial[i] - mean) / (2. * elastic.shear_modulus);
+          at.plastic[i]      = select(open, shear + volume / 3., at.plastic[i]);
+          for (int j = 0; j < 3; ++j)
+            at.softer[i][j] = select(open, Number(elasticity(i, j)), at.softer[i][j]);
+        }
+      at.opening = select(open, volume, at.opening);
+      return !open || mean >= bounds.tension;
+    }
+
+    double
+    elasticity(const int i, const int j) const
+    {
+      return elastic.lame_modulus + (i == j ? 2. * elastic.shear_modulus : 0.);
+    }
+
+    /** While cracks close, changes of volume bring no stress. */
+    template <typename Number>
+    void
+    set_return(const FallingOrder<Number>    &order,
+               const ClosingOfCracks<Number> &closing,
+               Return<Number>                &at,
+               Response<Number>              &response) const
+    {
+      for (int i = 0; i < 3; ++i)
+        {
+          Number by_volume = 0.;
+          for (int j = 0; j < 3; ++j)
+            by_volume += (elasticity(i, j) - at.softer[i][j]) / 3.;
+          for (int j = 0; j < 3; ++j)
+            at.softer[i][j] += (1. - closing.slope) * by_volume;
+          at.plastic[i] -= closing.change / 3.;
+        }
+      order.restore(at.plastic);
+      order.restore(at.softer);
+      for (int i = 0; i < 3; ++i)
+        {
+          response.plastic_strain[i] = at.plastic[i];
+          for (int j = 0; j < 3; ++j)
+            response.tangent[i][j] -= at.softer[i][j];
+        }
     }
 
     /** Inverse of an n x n matrix by Gauss and Jordan; false if it is singular. */
@@ -291,30 +441,7 @@ namespace kedge
       return true;
     }
 
-    template <typename Number>
-    void
-    set_return(const Planes &planes, const Return<Number> &at, Response<Number> &response) const
-    {
-      const int n = planes[1] < 0 ? 1 : planes[2] < 0 ? 2 : 3;
-      Number    rows[3][3], images[3][3];
-      for (int p = 0; p < n; ++p)
-        {
-          double a[3];
-          gradient(planes[p], sin_friction, a);
-          times_elasticity(a, rows[p]);
-          gradient(planes[p], sin_dilation, a);
-          times_elasticity(a, images[p]);
-        }
-      for (int i = 0; i < 3; ++i)
-        {
-          response.plastic_strain[at.order[i]] = at.plastic[i];
-          for (int j = 0; j < 3; ++j)
-            for (int p = 0; p < n; ++p)
-              for (int q = 0; q < n; ++q)
-                response.tangent[at.order[i]][at.order[j]] -=
-                  images[p][i] * at.inverse[p][q] * rows[q][j];
-        }
-    }
+    const std::array<ActivePlanes<double>, n_active_sets> active;
   };
 } // namespace kedge
 

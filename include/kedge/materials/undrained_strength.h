@@ -114,7 +114,8 @@ namespace kedge
       const Number            start  = slow_strength(history, Number(0.));
       valid =
         valid && (stiffness + factor * conjugate * slow_slope(history, Number(0.)) > 0. || !yields);
-      Number S = 0.;
+      Condition<Number> open = yields;
+      Number            S    = 0.;
       for (int iteration = 0; iteration < most_iterations; ++iteration)
         {
           const Number growth = conjugate * S;
@@ -122,14 +123,16 @@ namespace kedge
             excess - stiffness * S - factor * (slow_strength(history, growth) - start);
           const Number change =
             rest / (stiffness + factor * conjugate * slow_slope(history, growth));
-          S = select(yields, S + change, Number(0.));
-          if (!any(yields && abs(change) > 1e-15 * abs(S)))
+          S    = select(open, S + change, S);
+          open = open && abs(change) > 1e-15 * abs(S);
+          if (!any(open))
             break;
         }
       if (!(rate_coefficient > 0.))
         return S;
       // between none and that of slow shear, by Newton's method with bisection
       Number low = 0., high = S;
+      open = yields;
       for (int iteration = 0; iteration < most_bisections; ++iteration)
         {
           const Number growth = conjugate * S;
@@ -140,9 +143,10 @@ namespace kedge
           const Number newton = S + rest / select(fall > 0., fall, Number(1.));
           const auto   inside = fall > 0. && newton >= low && newton <= high;
           const Number next   = select(inside, newton, 0.5 * (low + high));
-          const Number change = select(yields && abs(rest) > 0., next - S, Number(0.));
+          const Number change = select(open && abs(rest) > 0., next - S, Number(0.));
           S += change;
-          if (!any(abs(change) > 1e-15 * abs(S)))
+          open = open && abs(change) > 1e-15 * abs(S);
+          if (!any(open))
             break;
         }
       return S;

@@ -123,11 +123,13 @@ namespace kedge
     /**
      * Turns S_{n+1} and H = dS_{n+1}/dE into the CLC stress and its
      * derivative:
-     *   S_clc = (tau_n + S_{n+1})/2 + q N,  N = b_n E b_n,
+     *   S_clc = (tau_n + S_{n+1})/2 + q N,  N = b^e_n E b^e_n,
      *   q = [2 (dPsi + dD) - (tau_n + S_{n+1})/2 : E] / (E : N),
-     * E : N = |C - C_n|^2. @p work_slope is 2 d(dPsi + dD)/dE, S_{n+1} for most
-     * materials. As C -> C_n, q = O(|C - C_n|); it is set to zero
-     * only at E = 0, and its derivative's rank-one part, O(|C - C_n|) too, is
+     * E : N = |C^e - C^e_n|^2, of the trial from the stress-free state of n, which is |C - C_n|^2
+     * of bodies that have not flowed. (Measured from the state before all plastic flow, whose
+     * strains may be large by any factor, the directions of N would be as far apart.) @p work_slope
+     * is 2 d(dPsi + dD)/dE, S_{n+1} for most materials. As E -> 0, q = O(|E|); it is set to zero
+     * only at E = 0, and its derivative's rank-one part, O(|E|) too, is
      * dropped where round-off would exceed it.
      */
     template <int dim, bool with_tangent, typename Number>
@@ -143,7 +145,7 @@ namespace kedge
       constexpr double smallest_square = 1e-280, smallest_square_for_slope = 1e-16;
 
       Number N[ns];
-      sandwich<dim>(state.left_cauchy_green, E, N);
+      sandwich<dim>(state.elastic_left_cauchy_green, E, N);
       const Number square = double_contract<dim>(E, N);
 
       Number mean[ns];
@@ -167,7 +169,7 @@ namespace kedge
                           0.5 * EH - 2. * q * N[t]) *
                          weight;
             }
-          const auto &b = state.left_cauchy_green;
+          const auto &b = state.elastic_left_cauchy_green;
           for (int s = 0; s < ns; ++s)
             {
               const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];

@@ -25,13 +25,12 @@ namespace kedge
 
   /**
    * The stress state of a committed history: B with B B^T = b^e_n, the elastic
-   * stretch out of the plane (plane strain, else 1), F_n and tau_n.
+   * stretch out of the plane (plane strain, else 1), and tau_n.
    */
   template <int dim>
   inline StressState<dim>
   make_stress_state(const dealii::Tensor<2, dim>          &elastic_frame,
                     const double                           out_of_plane_elastic_stretch,
-                    const dealii::Tensor<2, dim>          &deformation_gradient,
                     const dealii::SymmetricTensor<2, dim> &kirchhoff_stress)
   {
     StressState<dim> result;
@@ -53,9 +52,9 @@ namespace kedge
         const int i = symmetric_row<dim>[s], j = symmetric_column<dim>[s];
         double    sum = 0.;
         for (int k = 0; k < dim; ++k)
-          sum += deformation_gradient[i][k] * deformation_gradient[j][k];
-        result.left_cauchy_green[s] = sum;
-        result.kirchhoff_stress[s]  = kirchhoff_stress[i][j];
+          sum += elastic_frame[i][k] * elastic_frame[j][k];
+        result.elastic_left_cauchy_green[s] = sum;
+        result.kirchhoff_stress[s]          = kirchhoff_stress[i][j];
       }
     return result;
   }

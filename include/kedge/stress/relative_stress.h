@@ -16,11 +16,11 @@ namespace kedge
   template <int dim, typename Number = double>
   struct StressState
   {
-    Number elastic_frame[dim][dim];             ///< B, B B^T = b^e_n, orthogonal columns
-    Number squared_stretch[dim];                ///< squared length of each column of B
-    Number strain[3];                           ///< principal elastic Hencky strain eps_n
-    Number left_cauchy_green[n_symmetric<dim>]; ///< total b_n = F_n F_n^T
-    Number kirchhoff_stress[n_symmetric<dim>];  ///< tau_n [Pa]
+    Number elastic_frame[dim][dim];                     ///< B, B B^T = b^e_n, orthogonal columns
+    Number squared_stretch[dim];                        ///< squared length of each column of B
+    Number strain[3];                                   ///< principal elastic Hencky strain eps_n
+    Number elastic_left_cauchy_green[n_symmetric<dim>]; ///< b^e_n = B B^T
+    Number kirchhoff_stress[n_symmetric<dim>];          ///< tau_n [Pa]
   };
 
   /** What a material answers, with Number for each value. */

@@ -91,6 +91,19 @@ namespace kedge
                  const std::vector<double>                 &v_n,
                  const std::vector<double>                 &v_np1,
                  const std::vector<double>                 &u);
+
+  /** 1/2 sum m |v_p - v(x_p)|^2 of nodal velocities v, this rank's share [J]. */
+  template <int dim>
+  double
+  filtered_energy(const Patch<dim> &patch, const std::vector<double> &v);
+
+  /**
+   * 1/2 v (M_l - M) v of nodal velocities, lumped and consistent mass; not negative. This rank's
+   * share [J].
+   */
+  template <int dim>
+  double
+  lumping_energy(const Patch<dim> &patch, const std::vector<double> &v);
 } // namespace kedge
 
 #endif

@@ -36,6 +36,9 @@ namespace kedge
     finish(const Trial<dim> &trial) override;
 
     void
+    book(const Trial<dim> &trial, const Residual<dim> &residual, Ledger &ledger) const override;
+
+    void
     commit(const Trial<dim> &trial, MaterialPoints<dim> &cloud) override;
 
     void
@@ -67,7 +70,7 @@ namespace kedge
     /** Momenta have their components in x, y, z; in 2D the angular one z alone. */
     struct Columns
     {
-      Ledger::Index kinetic_energy, linear_momentum[3], angular_momentum[3];
+      Ledger::Index kinetic_energy, mapping_dissipation, linear_momentum[3], angular_momentum[3];
       Ledger::Index mass, n_points, n_active_cells, min_det_F;
     };
 

@@ -57,6 +57,21 @@ namespace kedge
       return scheme.carries_acceleration;
     }
 
+    /**
+     * What the mappings of a step take from the points' kinetic energy, this rank's share [J]; not
+     * negative. With D = M~ - M, of FLIP 1/2 dv D dv, dv the change of the nodal velocities; of PIC
+     * 1/2 v_n D v_n + 1/2 v_{n+1} D v_{n+1} and what the points' velocities had beside v_n.
+     */
+    double
+    loss(const Trial<dim> &trial) const;
+
+    /** Whether it may be more than nothing. */
+    bool
+    is_lossy() const
+    {
+      return parameters.lumping > 0. || parameters.velocity_mapping == VelocityUpdate::pic;
+    }
+
     /** Writes the motion of a point at the end of the step, but for its acceleration. */
     void
     update(const unsigned int slot, PointCore<dim> &state) const;
@@ -78,6 +93,8 @@ namespace kedge
   private:
     LinearStatus
     project(const std::vector<dealii::Tensor<1, dim>> &at_points, std::vector<double> &at_nodes);
+    std::vector<double>
+    velocity_change(const Trial<dim> &trial, const std::vector<double> &v_end) const;
     const NodeMatrix<dim> &
     mapping_mass() const
     {
