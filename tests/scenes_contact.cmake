@@ -39,6 +39,18 @@ kedge_add_scene_test(scene.block_on_incline.smooth prm/block_on_incline.prm
 # rigid walls: waves, and sliding along a plane oblique to the grid
 kedge_add_scene_test(scene.bar_on_wall prm/bar_on_wall.prm)
 kedge_add_scene_test(scene.bar_on_wall.short_steps prm/bar_on_wall.prm SET "Constants/cfl = 0.5")
+kedge_add_scene_test(scene.bar_on_wall.moving_wall prm/bar_on_wall.prm
+  SET "Constants/wall = 0.05")
+# facets that are stretched fourfold and drawn together to a quarter while they touch
+kedge_add_scene_test(scene.flattened_block prm/flattened_block.prm)
+kedge_add_scene_test(scene.flattened_block.ranks prm/flattened_block.prm RANKS 2)
+kedge_add_restart_test(scene.restart.flattened_block prm/flattened_block.prm KILLS 2
+  SET "Output/Checkpoint every steps = 5")
+kedge_add_scene_test(scene.flattened_block.in_motion prm/flattened_block.prm
+  SET "Time/Scheme = clc-midpoint" "Constants/books = 1e-11" "Constants/tolerance = 2")
+kedge_add_scene_test(refusal.wall_displacement prm/bars_unequal.prm
+  SET "Contact/bars/Wall displacement = t; 0" EXPECT_EXIT 1
+  EXPECT_STDERR "Wall displacement.*There is no Wall")
 kedge_add_scene_test(scene.block_on_slope prm/block_on_slope.prm)
 kedge_add_scene_test(scene.block_on_slope.sticks prm/block_on_slope.prm SET "Constants/mu = 0.6")
 kedge_add_scene_test(scene.block_on_slope.smooth prm/block_on_slope.prm SET "Constants/mu = 0")

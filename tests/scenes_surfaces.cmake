@@ -48,6 +48,14 @@ kedge_add_scene_test(scene.moved_section prm/moved_section.prm COMPARE_RANKS 1e-
 kedge_add_scene_test(scene.moved_section.fine prm/moved_section.prm
   SET "Constants/n = 100" "Checks/force/Tolerance = 0.2 %")
 kedge_add_scene_test(scene.inclined_roller prm/inclined_roller.prm)
+# on a curved surface, wherever its centre is among the nodes
+kedge_add_scene_test(scene.cylinder_wall_moved prm/cylinder_wall_moved.prm)
+kedge_add_scene_test(scene.cylinder_wall_moved.shifted prm/cylinder_wall_moved.prm
+  SET "Constants/n = 8" "Constants/shift = 0.3")
+kedge_add_scene_test(scene.cylinder_wall_moved.ranks prm/cylinder_wall_moved.prm
+  SET "Constants/n = 8" RANKS 2)
+# nodes that are held for a time
+kedge_add_scene_test(scene.released tests/scenes/released.prm)
 kedge_add_restart_test(scene.restart.pressed_by_condition prm/pressed_by_condition.prm KILLS 3
   SET "Output/Checkpoint every steps = 5" "Output/Points interval = 0")
 kedge_add_scene_test(scene.lost_support tests/scenes/lost_support.prm EXPECT_EXIT 2

@@ -53,8 +53,11 @@ namespace kedge
     Stencil<dim>            stencil;
     const LatticeIndex<dim> cell = lattice.cell_of(x);
     for (int d = 0; d < dim; ++d)
-      set_two_nodes(
-        lattice.scaled(x[d], d), cell[d], 1. / lattice.h[d], stencil.value[d], stencil.slope[d]);
+      set_two_nodes(lattice.scaled(x[d], d),
+                    cell[d],
+                    1. / lattice.h[d],
+                    stencil.value[d],
+                    stencil.slope[d]);
     stencil.pattern    = 0;
     stencil.first_node = window.node_number(cell);
     return stencil;
@@ -77,8 +80,7 @@ namespace kedge
       {
         const double s         = lattice.scaled(x[d], d);
         const double inverse_h = 1. / lattice.h[d];
-        const double half =
-          std::min({half_lengths[d] * inverse_h, 0.5, s, lattice.n_cells[d] - s});
+        const double half = std::min({half_lengths[d] * inverse_h, 0.5, s, lattice.n_cells[d] - s});
 
         // overlap with the cells below and above the one that holds the centre
         const double below = cell[d] - (s - half), above = (s + half) - (cell[d] + 1);
@@ -155,21 +157,21 @@ namespace kedge
       }
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                                  \
-  template Stencil<dim> linear_stencil(const Lattice<dim> &,                                    \
-                                       const LatticeWindow<dim> &,                              \
-                                       const dealii::Point<dim> &);                             \
-  template Stencil<dim> gimp_stencil(const Lattice<dim> &,                                      \
-                                     const LatticeWindow<dim> &,                                \
-                                     const dealii::Point<dim> &,                                \
-                                     const dealii::Tensor<1, dim> &);                           \
-  template Stencil<dim> quadratic_stencil(const Lattice<dim> &,                                 \
-                                          const LatticeWindow<dim> &,                           \
-                                          const dealii::Point<dim> &);                          \
-  template Stencil<dim> make_stencil(const BasisKind,                                           \
-                                     const Lattice<dim> &,                                      \
-                                     const LatticeWindow<dim> &,                                \
-                                     const dealii::Point<dim> &,                                \
+#define KEDGE_INSTANTIATE(dim)                                         \
+  template Stencil<dim> linear_stencil(const Lattice<dim> &,           \
+                                       const LatticeWindow<dim> &,     \
+                                       const dealii::Point<dim> &);    \
+  template Stencil<dim> gimp_stencil(const Lattice<dim> &,             \
+                                     const LatticeWindow<dim> &,       \
+                                     const dealii::Point<dim> &,       \
+                                     const dealii::Tensor<1, dim> &);  \
+  template Stencil<dim> quadratic_stencil(const Lattice<dim> &,        \
+                                          const LatticeWindow<dim> &,  \
+                                          const dealii::Point<dim> &); \
+  template Stencil<dim> make_stencil(const BasisKind,                  \
+                                     const Lattice<dim> &,             \
+                                     const LatticeWindow<dim> &,       \
+                                     const dealii::Point<dim> &,       \
                                      const dealii::Tensor<1, dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

@@ -60,6 +60,72 @@ namespace kedge
       }
   }
 
+  namespace
+  {
+    /** A facet that has part of one before. */
+    struct Heir
+    {
+      unsigned int facet;
+      double       of_old, of_new; ///< parts of the areas of both
+    };
+
+    /** Of each facet before. */
+    std::vector<std::vector<Heir>>
+    find_heirs(const FacetHeritage &heritage)
+    {
+      std::vector<double>            areas(heritage.heirs.size(), 0.);
+      std::vector<std::vector<Heir>> heirs(heritage.heirs.size());
+      for (const auto &parts : heritage.parts)
+        for (const auto &part : parts)
+          areas[part.facet] += part.area;
+      for (unsigned int f = 0; f < heritage.parts.size(); ++f)
+        for (const auto &part : heritage.parts[f])
+          heirs[part.facet].push_back(
+            {f, part.area / areas[part.facet], part.area / heritage.area(f)});
+      return heirs;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<ContactPlace<dim>>
+  on_facets_after_step(std::vector<ContactPlace<dim>> &&places)
+  {
+    std::map<const BodySurface<dim> *, std::vector<std::vector<Heir>>> heirs;
+    for (const auto &place : places)
+      if (const auto &heritage = place.surface->heritage();
+          !heritage.empty() && heirs.count(place.surface) == 0)
+        heirs.emplace(place.surface, find_heirs(heritage));
+    if (heirs.empty())
+      return std::move(places);
+    std::vector<ContactPlace<dim>> result;
+    for (const ContactPlace<dim> &place : places)
+      {
+        const auto known = heirs.find(place.surface);
+        if (known == heirs.end())
+          {
+            result.push_back(place);
+            continue;
+          }
+        for (const Heir &heir : known->second[place.facet])
+          {
+            ContactPlace<dim> here = place;
+            here.facet             = heir.facet;
+            here.force *= heir.of_old;
+            here.area *= heir.of_old;
+            here.friction *= heir.of_old;
+            here.pressure *= heir.of_new;
+            result.push_back(here);
+          }
+      }
+    return result;
+  }
+
+  template std::vector<ContactPlace<2>>
+  on_facets_after_step(std::vector<ContactPlace<2>> &&);
+  template std::vector<ContactPlace<3>>
+  on_facets_after_step(std::vector<ContactPlace<3>> &&);
   template class ContactPicture<2>;
   template class ContactPicture<3>;
 } // namespace kedge

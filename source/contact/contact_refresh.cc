@@ -1,6 +1,7 @@
 // What a contact takes anew once the equations are solved: directions, partners, multipliers.
 #include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/contact_term.h>
+#include <kedge/contact/wall_term.h>
 
 namespace kedge
 {
@@ -108,8 +109,52 @@ namespace kedge
     return again;
   }
 
+  /** Uzawa's step at rest; false if no cell has a large gap and nothing that sticks creeps. */
+  template <int dim>
+  bool
+  WallTerm<dim>::refresh(const Trial<dim> &trial)
+  {
+    if (!at_rest || n_updates == most_updates)
+      return false;
+    move(trial);
+    std::vector<CellMultipliers<dim>>                cells;
+    std::vector<std::vector<dealii::Tensor<1, dim>>> slips;
+    double                                           largest = 0.; // [m]
+    for (const Side &side : sides)
+      {
+        cells.emplace_back(side.surface->patch.grid().lattice());
+        slips.emplace_back();
+        for (const Sample &sample : side.samples)
+          {
+            const ContactResponse<dim> here = response(side, sample);
+            cells.back().add(sample.place + alpha * displacement(side, sample),
+                             sample.area,
+                             side.law,
+                             sample.start.multiplier,
+                             sample.start.slip,
+                             here);
+            slips.back().push_back(here.slip_end);
+          }
+        largest = std::max(largest, cells.back().largest_violation());
+      }
+    if (largest <= smallest_gap * cell_size)
+      return false;
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      for (std::size_t n = 0; n < sides[k].samples.size(); ++n)
+        {
+          sides[k].samples[n].start.multiplier = cells[k].updated(n);
+          sides[k].samples[n].start.slip       = slips[k][n];
+        }
+    ++n_updates;
+    return true;
+  }
+
   template bool
   ContactTerm<2>::refresh(const Trial<2> &);
   template bool
   ContactTerm<3>::refresh(const Trial<3> &);
+  template bool
+  WallTerm<2>::refresh(const Trial<2> &);
+  template bool
+  WallTerm<3>::refresh(const Trial<3> &);
 } // namespace kedge

@@ -311,10 +311,10 @@ namespace kedge
             return Answer::failure(cause.str());
           }
         double stored  = 0.;
-        end_of_step[k] = half.memory_of_step(stored);
+        end_of_step[k] = half.handed_on(half.memory_of_step(stored));
         // committed less taken up by samples; and at the end what samples had less what is kept
         released += half.stored() - half.stored_at_start() + stored;
-        released -= half.stored_of(end_of_step[k]);
+        released -= half.stored_after_step(end_of_step[k]);
       }
     places = places_of_step(trial.times.dt);
     return {};
@@ -406,7 +406,7 @@ namespace kedge
   {
     for (std::size_t k = 0; k < passes.size(); ++k)
       passes[k].commit(std::move(end_of_step[k]));
-    committed_places = std::move(places);
+    committed_places = on_facets_after_step(std::move(places));
   }
 
 

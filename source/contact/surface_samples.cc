@@ -54,8 +54,9 @@ namespace kedge
   void
   MovingSurface<dim>::move(const std::vector<dealii::Tensor<1, dim>> &of_step, const double part)
   {
-    if (mesh.facets.size() != surface.mesh().facets.size())
+    if (mesh.facets.empty() || generation != surface.generation())
       mesh = end = surface.mesh();
+    generation = surface.generation();
     mesh.left = end.left = surface.mesh().left;
     displacements        = of_step;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -274,19 +275,6 @@ namespace kedge
 
   template <int dim>
   double
-  SurfaceSamples<dim>::stored_of(const std::map<unsigned int, Memory> &remembered) const
-  {
-    double sum = 0.;
-    for (const auto &[facet, last] : remembered)
-      sum += share * sampled.surface.reference_area(facet) *
-             energy(last.gap, last.multiplier, last.slip);
-    return sum;
-  }
-
-
-
-  template <int dim>
-  double
   SurfaceSamples<dim>::stored_at_start() const
   {
     double sum = 0.;
@@ -311,13 +299,38 @@ namespace kedge
         const bool is_closed =
           law.conserving ? r.gap_end < 0. || end.true_gap < 0. : r.pressure > 0.;
         if (is_closed)
-          result[sample.facet] = {sample.partner.facet,
-                                  r.gap_end,
-                                  sample.multiplier,
-                                  r.slip_end,
+          result[sample.facet] = {{r.gap_end, sample.multiplier, r.slip_end},
+                                  sample.partner.facet,
                                   sample.partner.normal};
       }
     return result;
+  }
+
+
+
+  template <int dim>
+  std::map<unsigned int, typename SurfaceSamples<dim>::Memory>
+  SurfaceSamples<dim>::handed_on(std::map<unsigned int, Memory> &&of_step) const
+  {
+    const FacetHeritage &heritage = sampled.surface.heritage(),
+                        &partners = other.surface.heritage();
+    if (!partners.empty())
+      for (auto &[facet, last] : of_step)
+        last.partner = partners.heirs[last.partner];
+    if (heritage.empty())
+      return std::move(of_step);
+    return heritage.hand_on(of_step, [](const auto &parts) {
+      const auto largest =
+        std::max_element(parts.begin(), parts.end(), [](const auto &a, const auto &b) {
+          return a.second < b.second;
+        });
+      Memory result{mean_of_parts<dim>(parts), largest->first->partner, largest->first->normal};
+      // slips are across the normal that is kept
+      result.slip = dealii::Tensor<1, dim>();
+      for (const auto &[part, share] : parts)
+        result.slip += share * turned(part->slip, part->normal, result.normal);
+      return result;
+    });
   }
 
 

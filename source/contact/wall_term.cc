@@ -2,6 +2,7 @@
 #include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/coupling_sum.h>
 #include <kedge/contact/wall_term.h>
+#include <kedge/equations/external_work.h>
 
 #include <sstream>
 
@@ -10,11 +11,14 @@ namespace kedge
   template <int dim>
   WallTerm<dim>::WallTerm(const ContactParameters             &parameters,
                           const WallPlane<dim>                &plane,
+                          const WallMotion<dim>               &motion,
                           const std::vector<WallBody<dim>>    &bodies,
                           const std::map<std::string, double> &constants,
                           const Scheme                        &scheme,
                           const double                         cell_size)
     : parameters(parameters)
+    , plane_at_rest(plane)
+    , motion(motion)
     , plane(plane)
     , cell_size(cell_size)
     , alpha(scheme.contact_alpha())
@@ -52,6 +56,7 @@ namespace kedge
   void
   WallTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
   {
+    plane = plane_at(0.);
     for (const Side &side : sides)
       shear_limit.count_from(*side.surface);
     for (const Side &side : sides)
@@ -127,9 +132,12 @@ namespace kedge
 
   template <int dim>
   void
-  WallTerm<dim>::start(Trial<dim> &)
+  WallTerm<dim>::start(Trial<dim> &trial)
   {
-    n_updates = 0;
+    const double t_n = trial.times.t_n;
+    plane            = plane_at(t_n);
+    moves_by         = motion.displacement(t_n + trial.times.dt) - motion.displacement(t_n);
+    n_updates        = 0;
     for (Side &side : sides)
       find(side);
   }
@@ -180,7 +188,7 @@ namespace kedge
                             sample.start.gap,
                             sample.start.slip,
                             sample.start.multiplier,
-                            displacement(side, sample),
+                            relative_displacement(side, sample),
                             pore_pressure);
   }
 
@@ -254,48 +262,6 @@ namespace kedge
 
 
 
-  /** Uzawa's step at rest; false if no cell has a large gap and nothing that sticks creeps. */
-  template <int dim>
-  bool
-  WallTerm<dim>::refresh(const Trial<dim> &trial)
-  {
-    if (!at_rest || n_updates == most_updates)
-      return false;
-    move(trial);
-    std::vector<CellMultipliers<dim>>                cells;
-    std::vector<std::vector<dealii::Tensor<1, dim>>> slips;
-    double                                           largest = 0.; // [m]
-    for (const Side &side : sides)
-      {
-        cells.emplace_back(side.surface->patch.grid().lattice());
-        slips.emplace_back();
-        for (const Sample &sample : side.samples)
-          {
-            const ContactResponse<dim> here = response(side, sample);
-            cells.back().add(sample.place + alpha * displacement(side, sample),
-                             sample.area,
-                             side.law,
-                             sample.start.multiplier,
-                             sample.start.slip,
-                             here);
-            slips.back().push_back(here.slip_end);
-          }
-        largest = std::max(largest, cells.back().largest_violation());
-      }
-    if (largest <= smallest_gap * cell_size)
-      return false;
-    for (std::size_t k = 0; k < sides.size(); ++k)
-      for (std::size_t n = 0; n < sides[k].samples.size(); ++n)
-        {
-          sides[k].samples[n].start.multiplier = cells[k].updated(n);
-          sides[k].samples[n].start.slip       = slips[k][n];
-        }
-    ++n_updates;
-    return true;
-  }
-
-
-
   template <int dim>
   Answer
   WallTerm<dim>::finish(const Trial<dim> &trial)
@@ -310,8 +276,8 @@ namespace kedge
         for (const Sample &sample : side.samples)
           {
             const ContactResponse<dim> end = response(side, sample);
-            const double true_gap          = plane.gap(sample.place + displacement(side, sample));
-            const double overlap           = -std::min(true_gap, end.gap_end);
+            const double true_gap = plane.gap(sample.place + relative_displacement(side, sample));
+            const double overlap  = -std::min(true_gap, end.gap_end);
             if (overlap > largest_overlap * cell_size)
               {
                 std::ostringstream cause;
@@ -330,7 +296,13 @@ namespace kedge
               places.push_back(place_of(side, sample, trial.times.dt));
           }
         // committed less taken up by samples; and at the end what samples had less what is kept
-        released += stored(side, side.memory) - taken_up + left - stored(side, side.end_of_step);
+        released += stored(side, side.memory) - taken_up + left;
+        if (!side.surface->heritage().empty())
+          side.end_of_step =
+            side.surface->heritage().hand_on(side.end_of_step, [](const auto &parts) {
+              return mean_of_parts<dim>(parts);
+            });
+        released -= stored_after_step<dim>(side.law, *side.surface, side.end_of_step);
       }
     return {};
   }
@@ -341,14 +313,16 @@ namespace kedge
   ContactPlace<dim>
   WallTerm<dim>::place_of(const Side &side, const Sample &sample, const double dt) const
   {
-    const dealii::Tensor<1, dim> D = displacement(side, sample);
-    ContactPlace<dim>            place;
+    ContactPlace<dim> place;
     place.surface = side.surface;
     place.facet   = sample.facet;
     place.partner = ContactPicture<dim>::wall;
-    place.at      = sample.place + alpha * D;
+    place.at      = sample.place + alpha * displacement(side, sample);
     place.area    = sample.area;
-    place.set_response(response(side, sample), plane.normal, D, dt);
+    place.set_response(response(side, sample),
+                       plane.normal,
+                       relative_displacement(side, sample),
+                       dt);
     return place;
   }
 
@@ -359,6 +333,8 @@ namespace kedge
   WallTerm<dim>::declare_books(Ledger &ledger)
   {
     books.declare(ledger, parameters.name);
+    if (motion.moves())
+      work = ledger.declare(external_work);
   }
 
 
@@ -372,6 +348,12 @@ namespace kedge
                released,
                trial.times.dt,
                sides.front().surface->patch.grid().lattice());
+    if (!motion.moves())
+      return;
+    dealii::Tensor<1, dim> force;
+    for (const ContactPlace<dim> &place : places)
+      force += place.force;
+    ledger.book(work, force * moves_by);
   }
 
 
@@ -407,7 +389,7 @@ namespace kedge
   {
     for (Side &side : sides)
       side.memory = std::move(side.end_of_step);
-    committed_places = std::move(places);
+    committed_places = on_facets_after_step(std::move(places));
   }
 
 
@@ -425,10 +407,9 @@ namespace kedge
   double
   WallTerm<dim>::stored(const Side &side, const Memory &memory)
   {
-    double sum = 0.;
-    for (const auto &[facet, closed] : memory)
-      sum += side.surface->reference_area(facet) * stored(side.law, closed);
-    return sum;
+    return stored_by_facets(side.law, memory, [&](const unsigned int facet) {
+      return side.surface->reference_area(facet);
+    });
   }
 
 

@@ -1,11 +1,12 @@
 #include <kedge/fields/node_conditions.h>
 #include <kedge/fields/prescribed_motion.h>
+#include <kedge/points/node_region.h>
 
 namespace kedge
 {
   namespace
   {
-    const std::vector<std::string> coordinates = {"x", "y", "z"};
+    const std::vector<std::string> place_and_time = {"x", "y", "z", "t"};
   } // namespace
 
 
@@ -22,7 +23,10 @@ namespace kedge
         condition.on_side = p.on_side;
         condition.side    = p.side;
         if (!p.on_side)
-          condition.where = Expression(p.where, coordinates, constants);
+          {
+            condition.where = Expression(p.where, place_and_time, constants);
+            follows_time_   = follows_time_ || depends_on_time(p.where, constants);
+          }
         for (int d = 0; d < dim; ++d)
           {
             Motion &motion = condition.motions[d];
@@ -60,7 +64,7 @@ namespace kedge
         return node[direction] == (condition.side % 2 == 0 ? 0 : lattice.n_cells[direction]);
       }
     const auto x    = lattice.node_position(node);
-    double     v[3] = {0, 0, 0};
+    double     v[4] = {0, 0, 0, time};
     for (int d = 0; d < dim; ++d)
       v[d] = x[d];
     return (*condition.where)(v) != 0.;
@@ -69,9 +73,21 @@ namespace kedge
 
 
   template <int dim>
-  void
+  bool
+  NodeConditions<dim>::set_time(const double t)
+  {
+    const double before = time;
+    time                = program.time(t);
+    return follows_time_ && time != before;
+  }
+
+
+
+  template <int dim>
+  bool
   NodeConditions<dim>::reinit(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes)
   {
+    const std::vector<short> before = condition_of, pressure_before = pressure_condition_of;
     condition_of.assign(std::size_t(nodes.n_local()) * dim, -1);
     pressure_condition_of.assign(any_pressure ? nodes.n_local() : 0, -1);
     for (unsigned int c = 0; c < conditions.size(); ++c)
@@ -84,11 +100,13 @@ namespace kedge
             if (conditions[c].pressure)
               pressure_condition_of[i] = c;
           }
-    if (!needs_place)
-      return;
-    place.resize(nodes.n_local());
-    for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      place[i] = grid.lattice().node_position(grid.window().node_index(nodes.window_node(i)));
+    if (needs_place)
+      {
+        place.resize(nodes.n_local());
+        for (unsigned int i = 0; i < nodes.n_local(); ++i)
+          place[i] = grid.lattice().node_position(grid.window().node_index(nodes.window_node(i)));
+      }
+    return condition_of != before || pressure_condition_of != pressure_before;
   }
 
 

@@ -1,5 +1,7 @@
 #include <kedge/fields/patch.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <sstream>
 
 namespace kedge
@@ -34,6 +36,10 @@ namespace kedge
     new_pattern_ = new_nodes_ || ties.changed();
     if (new_nodes_)
       conditions.reinit(background, nodes);
+    else if (conditions.follows_time())
+      new_pattern_ =
+        dealii::Utilities::MPI::logical_or(conditions.reinit(background, nodes) || new_pattern_,
+                                           background.communicator());
     if (!new_pattern_)
       return;
     ties.localise(nodes, conditions);

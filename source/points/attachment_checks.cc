@@ -55,8 +55,8 @@ namespace kedge
     for (const auto &condition : conditions)
       {
         const NodeRegion<dim> region(condition, constants);
-        // an expression without x, y, z switches it on or off
-        if (!region.has_limits())
+        // an expression without x, y, z switches it on or off, as one of the time may
+        if (!region.has_limits() || region.follows_time())
           continue;
         bool any = false;
         for (unsigned int i = 0; i < window.n_nodes_total() && !any; ++i)

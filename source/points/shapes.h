@@ -2,8 +2,8 @@
 #define kedge_source_points_shapes_h
 
 #include <kedge/base/expression.h>
-#include <kedge/points/geometry.h>
 #include <kedge/geometry/triangle_surface.h>
+#include <kedge/points/geometry.h>
 
 namespace kedge
 {

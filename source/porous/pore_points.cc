@@ -19,8 +19,8 @@ namespace kedge
       const unsigned int slot = points.slot_of[number];
       if (slot == StepPoints<dim>::no_slot)
         return;
-      pressure[slot]          = state.pore_pressure;
-      fluctuation[slot]       = state.pore_pressure_fluctuation;
+      pressure[slot]    = state.pore_pressure;
+      fluctuation[slot] = state.pore_pressure_fluctuation;
       if (!scheme.carries_rates)
         return;
       rate[slot]        = state.fluid_content_rate;

@@ -60,7 +60,7 @@ namespace kedge
       condition.where    = section.text("Where");
       condition.reaction = section.truth("Reaction");
       if (first_is_given(section, "Side", "Section"))
-        condition.side = parse_side<dim>(section.text("Side"));
+        condition.side = parse_side_or_all<dim>(section.text("Side"));
       else
         {
           const auto [d, place] = parse_section<dim>(section.text("Section"), section.constants());
@@ -92,31 +92,36 @@ namespace kedge
     const std::string words   = dim == 2 ? "x, y" : "x, y, z";
     const auto        coordinates =
       dim == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
-    SectionDeclaration section = {
-      "Body conditions",
-      "What moves a body at its own surface, or at a plane section within it; it carries the "
-      "condition along, whatever nodes of the grid it passes. Either Side or Section says where.",
-      SectionKind::named,
-      {{"Body",
-        std::nullopt,
-        allow.text("the name of a section of Bodies"),
-        "The body that is moved."},
-       {"Side",
-        "",
-        allow.side().or_empty(),
-        "Its outer faces that look to this side at the start."},
-       {"Section",
-        "",
-        allow.section().or_empty(),
-        "The plane normal to a direction through it, at this place at the start [m]."},
-       {"Where",
-        "",
-        allow.expression(coordinates, words).or_empty(),
-        "The part of the faces where this is true at the start; empty: all; 0: none."},
-       {"Reaction",
-        "false",
-        allow.truth(),
-        "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."}}};
+    std::vector<std::string> of_surface = coordinates;
+    for (const char letter : letters)
+      of_surface.push_back(std::string("n") + letter);
+    const std::string  surface_words = words + (dim == 2 ? ", nx, ny" : ", nx, ny, nz");
+    SectionDeclaration section       = {
+            "Body conditions",
+            "What moves a body at its own surface, or at a plane section within it; it carries the "
+                  "condition along, whatever nodes of the grid it passes. Either Side or Section says where.",
+            SectionKind::named,
+            {{"Body",
+              std::nullopt,
+              allow.text("the name of a section of Bodies"),
+              "The body that is moved."},
+             {"Side",
+              "",
+              allow.side_or_all().or_empty(),
+              "Its outer faces that look to this side at the start; all: its whole surface."},
+             {"Section",
+              "",
+              allow.section().or_empty(),
+              "The plane normal to a direction through it, at this place at the start [m]."},
+             {"Where",
+              "",
+              allow.expression(of_surface, surface_words).or_empty(),
+              "The part of the faces where this is true at the start, of the place and the outward "
+                    "normal; empty: all; 0: none."},
+             {"Reaction",
+              "false",
+              allow.truth(),
+              "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."}}};
     for (const char letter : letters)
       section.entries.push_back({std::string("Component ") + letter,
                                  "free",

@@ -137,8 +137,9 @@ namespace kedge
         {
           if (section.is_empty("Second"))
             throw section.error("Second", "Name the bodies of the second group, or give a Wall.");
-          if (!section.is_empty("Wall point"))
-            throw section.error("Wall point", "There is no Wall, and no Wall normal.");
+          for (const char *entry : {"Wall point", "Wall displacement"})
+            if (!section.is_empty(entry))
+              throw section.error(entry, "There is no Wall, and no Wall normal.");
           return;
         }
       if (!section.is_empty("Second"))
@@ -150,6 +151,8 @@ namespace kedge
       contact.method = ContactMethod::surface_points;
       if (!section.is_empty("Wall point"))
         contact.wall_point = section.numbers("Wall point");
+      if (!section.is_empty("Wall displacement"))
+        contact.wall_displacement = section.list("Wall displacement");
       if (has_side)
         {
           contact.wall_side = parse_side<dim>(section.text("Wall"));
@@ -164,6 +167,33 @@ namespace kedge
       if (contact.wall_point.empty())
         throw section.error("Wall point", "A wall with a normal of its own needs a point.");
     }
+
+    /** Of a rigid plane in place of the second group. */
+    template <int dim>
+    decltype(SectionDeclaration::entries)
+    wall_entries(const ValuePatterns<dim> &allow)
+    {
+      return {
+        {"Wall",
+         "",
+         allow.side().or_empty(),
+         "In place of Second: a rigid plane on this side of the grid, which the bodies of First "
+         "may touch, slide along and leave. Node conditions hold as well as they push."},
+        {"Wall point",
+         "",
+         allow.vector().or_empty(),
+         "A point of the wall [m]. Empty: one of the side."},
+        {"Wall normal",
+         "",
+         allow.vector().or_empty(),
+         "In place of Wall: the direction from the wall towards the bodies [-]; needs Wall "
+         "point."},
+        {"Wall displacement",
+         "",
+         allow.expressions({"t"}, "t").or_empty(),
+         "How far the wall has moved since the start [m]: it pushes but does not pull. Empty: it "
+         "stands still."}};
+    }
   } // namespace
 
 
@@ -172,9 +202,9 @@ namespace kedge
   SectionDeclaration
   declare_contact(const ValuePatterns<dim> &allow)
   {
-    const auto group = allow.text("names of sections of Bodies, separated by commas");
-    using Range      = NumberRange;
-    return {
+    const auto group           = allow.text("names of sections of Bodies, separated by commas");
+    using Range                = NumberRange;
+    SectionDeclaration section = {
       "Contact",
       "Bodies that may move apart: those of the first group share no nodes of the grid with "
       "those of the second, and each group moves by itself. With one of the entries below "
@@ -183,20 +213,6 @@ namespace kedge
       SectionKind::named,
       {{"First", std::nullopt, group, "The bodies of the first group."},
        {"Second", "", group.or_empty(), "The bodies of the second group."},
-       {"Wall",
-        "",
-        allow.side().or_empty(),
-        "In place of Second: a rigid plane on this side of the grid, which the bodies of First "
-        "may touch, slide along and leave. Node conditions hold as well as they push."},
-       {"Wall point",
-        "",
-        allow.vector().or_empty(),
-        "A point of the wall [m]. Empty: one of the side."},
-       {"Wall normal",
-        "",
-        allow.vector().or_empty(),
-        "In place of Wall: the direction from the wall towards the bodies [-]; needs Wall "
-        "point."},
        {"Method",
         "",
         allow.one_of(method_names()).or_empty(),
@@ -232,6 +248,9 @@ namespace kedge
         "",
         allow.number(Range::positive()).or_empty(),
         "Distance of the points of the surfaces [m]. Empty: a fifth of a cell."}}};
+    const auto walls = wall_entries(allow);
+    section.entries.insert(section.entries.begin() + 2, walls.begin(), walls.end());
+    return section;
   }
 
 

@@ -146,6 +146,8 @@ namespace kedge
       SectionDeclaration
       node_conditions() const
       {
+        std::vector<std::string> variables = coordinates("xyz");
+        variables.emplace_back("t");
         SectionDeclaration section = {
           "Node conditions",
           "What moves the nodes of the grid. Either Side or Where says which.",
@@ -153,8 +155,9 @@ namespace kedge
           {{"Side", "", allow.side().or_empty(), "All nodes on this side of the grid."},
            {"Where",
             "",
-            allow.expression(coordinates("xyz"), coordinate_words("xyz")).or_empty(),
-            "All nodes where this is true, for example abs(x) < 1e-6 && y > 2."},
+            allow.expression(variables, coordinate_words("xyz") + ", t").or_empty(),
+            "All nodes where this is true, for example abs(x) < 1e-6 && y > 2; t is the time at "
+            "which a step starts."},
            {"Body",
             "",
             allow.text("the name of a section of Bodies").or_empty(),
@@ -165,8 +168,6 @@ namespace kedge
            "false",
            allow.truth(),
            "Whether history.csv shows the force on the body, reaction_NAME_x.. [N; N/m in 2D]."});
-        std::vector<std::string> variables = coordinates("xyz");
-        variables.emplace_back("t");
         section.entries.push_back(
           {"Pore pressure",
            "",

@@ -63,6 +63,19 @@ namespace kedge
                                   : ""));
     }
 
+    /** Whether a side of a body is not along the axes: a condition acts on facets there. */
+    template <int dim>
+    bool
+    is_on_facets(const Model<dim> &model, const SurfaceParameters &surface)
+    {
+      for (const auto &point : model.generated_points())
+        if (model.bodies.names[point.body] == surface.body && model.scene.bodies[point.body].clip &&
+            ((point.exposed_sides >> surface.side) & 1u) != 0 &&
+            lies_off_the_surface(point, surface.side, *model.scene.bodies[point.body].geometry))
+          return true;
+      return false;
+    }
+
     /** How many faces each body condition holds, where the middles of the faces are, and their
      * size. */
     template <int dim>
@@ -71,14 +84,22 @@ namespace kedge
     {
       for (const auto &condition : model.scene.body_conditions)
         {
-          if (condition.side >= 2 * dim)
-            continue;
           const std::string what =
             "  Body conditions/" + condition.name + " ('" + condition.body + "', ";
+          if (condition.side >= 2 * dim)
+            {
+              out << what << "all sides): facets of the body's surface\n";
+              continue;
+            }
           if (condition.section)
             {
               out << what << "section "
                   << "xyz"[condition.side / 2] << " = " << *condition.section << " m)\n";
+              continue;
+            }
+          if (is_on_facets(model, condition))
+            {
+              out << what << side_name(condition.side) << "): facets of the body's surface\n";
               continue;
             }
           const Expression where(condition.where.empty() ? "1" : condition.where,
@@ -148,11 +169,13 @@ namespace kedge
       for (const auto &condition : model.scene.node_conditions)
         {
           const NodeRegion<dim> region(condition, model.scene.constants);
-          const auto            travel = travel_of(condition,
+          if (region.follows_time())
+            continue;
+          const auto   travel = travel_of(condition,
                                         model.scene.constants,
                                         model.scene.time.start,
                                         model.scene.time.end);
-          const double          cells  = travel.norm() / lattice.smallest_cell_size();
+          const double cells  = travel.norm() / lattice.smallest_cell_size();
           if (cells > 1. && part_carried_away<dim>(region, lattice, nodes, travel) > 0.5)
             out << "  note: " << title(condition) << " moves what it holds by " << cells
                 << " cells, but its nodes stay where they are and hold whatever comes there next; "
@@ -195,39 +218,10 @@ namespace kedge
             << point->location.distance(place) << " m from its Place\n";
     }
 
-    /** Warns of conditions on sides that are not along the axes: points' faces do not tile them. */
-    template <int dim>
-    void
-    describe_faces(const Model<dim>        &model,
-                   const std::string       &section,
-                   const SurfaceParameters &surface,
-                   std::ostream            &out)
-    {
-      unsigned int n = 0, n_oblique = 0;
-      for (const auto &point : model.generated_points())
-        if (model.bodies.names[point.body] == surface.body && model.scene.bodies[point.body].clip)
-          for (unsigned int side = 0; side < 2 * dim; ++side)
-            if ((surface.side == side || surface.side == 2 * dim) &&
-                ((point.exposed_sides >> side) & 1u) != 0)
-              {
-                ++n;
-                n_oblique +=
-                  lies_off_the_surface(point, side, *model.scene.bodies[point.body].geometry);
-              }
-      if (n_oblique > 0)
-        out << "  note: " << section << '/' << surface.name << ": " << n_oblique << " of " << n
-            << " faces of body '" << surface.body
-            << "' on that side lie in cells that it cuts obliquely; what acts there may be wrong "
-               "by a third. With Cut cells = whole its sides are steps, whose areas add up.\n";
-    }
-
     template <int dim>
     void
     describe_places(const Model<dim> &model, std::ostream &out)
     {
-      for (const auto &condition : model.scene.body_conditions)
-        if (!condition.section)
-          describe_faces(model, "Body conditions", condition, out);
       std::size_t n = 0;
       for (const auto &load : model.scene.point_loads)
         if (n++ < most_lines)

@@ -139,7 +139,8 @@ namespace kedge
                                                       bodies.names,
                                                       scene.constants,
                                                       program,
-                                                      scheme));
+                                                      scheme,
+                                                      surface_terms));
   }
 
 
@@ -285,6 +286,18 @@ namespace kedge
       return plane;
     }
 
+    template <int dim>
+    WallMotion<dim>
+    wall_motion_of(const ContactParameters             &contact,
+                   const std::map<std::string, double> &constants,
+                   const LoadProgram                   &program)
+    {
+      WallMotion<dim> motion{{}, program};
+      for (const std::string &component : contact.wall_displacement)
+        motion.components.emplace_back(component, std::vector<std::string>{"t"}, constants);
+      return motion;
+    }
+
     /** Parts of a cell's diagonal where the non-linear penalty bends, and its final stiffness over
      * that at the start: those of the thesis's section 5.5.1.2. */
     constexpr double first_bend = -0.01, last_bend = -0.03, stiffening = 100.;
@@ -344,6 +357,9 @@ namespace kedge
         add(scene.tractions);
         add(scene.surface_pressures);
         add(scene.surface_fluxes);
+        for (const auto &condition : scene.body_conditions)
+          if (condition.body == bodies.names[b] && !condition.section)
+            sides.push_back(condition.side);
         if (contact || !sides.empty())
           surface_terms.push_back(
             &add_term(std::make_unique<SurfaceTerm<dim>>(scene.bodies[b],
@@ -361,7 +377,7 @@ namespace kedge
 
   template <int dim>
   void
-  Model<dim>::choose_contact_terms()
+  Model<dim>::choose_contact_terms(const LoadProgram &program)
   {
     const double h =
       points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
@@ -376,12 +392,14 @@ namespace kedge
               std::vector<WallBody<dim>> touching;
               for (const std::string &first : contact.first)
                 touching.push_back(wall_body_of(*surfaces.at(first), scene, bodies, contact, h));
-              add_term(std::make_unique<WallTerm<dim>>(contact,
-                                                       plane_of(contact, points.grid().lattice()),
-                                                       touching,
-                                                       scene.constants,
-                                                       scheme,
-                                                       h));
+              add_term(std::make_unique<WallTerm<dim>>(
+                contact,
+                plane_of(contact, points.grid().lattice()),
+                wall_motion_of<dim>(contact, scene.constants, program),
+                touching,
+                scene.constants,
+                scheme,
+                h));
               continue;
             }
           std::vector<ContactBodies<dim>> pairs;
@@ -474,7 +492,7 @@ namespace kedge
   template const MotionTerm<dim> &Model<dim>::choose_terms(const unsigned int,   \
                                                            const LoadProgram &); \
   template void                   Model<dim>::choose_surface_terms();            \
-  template void                   Model<dim>::choose_contact_terms();
+  template void                   Model<dim>::choose_contact_terms(const LoadProgram &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)
 #undef KEDGE_INSTANTIATE

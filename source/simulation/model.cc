@@ -34,7 +34,7 @@ namespace kedge
     n_field_terms = terms.size() - surface_terms.size();
     if (!scene.rigid_bodies.empty())
       choose_rigid_terms(program);
-    choose_contact_terms();
+    choose_contact_terms(program);
     if (!scene.open_sides.empty())
       terms.push_back(std::make_unique<OutflowTerm<dim>>(bodies.soils, motions, communicator));
     declare();

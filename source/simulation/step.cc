@@ -70,6 +70,18 @@ namespace kedge
 
 
 
+  /** Nodes are prescribed or free as they are at the start of the step. */
+  template <int dim>
+  void
+  Step<dim>::set_time(const double t)
+  {
+    for (auto &field : model.fields)
+      if (field->patch.conditions.set_time(t))
+        activated = false;
+  }
+
+
+
   template <int dim>
   LinearStatus
   Step<dim>::points_to_nodes()
@@ -91,6 +103,7 @@ namespace kedge
   Step<dim>::attempt(const StepTimes &times, const std::function<bool()> &stop)
   {
     Assert(solves, dealii::ExcMessage("This step has no matrices."));
+    set_time(times.t_n);
     activate();
     {
       const Stopwatch           stopwatch(phases["transfer"]);
@@ -207,6 +220,7 @@ namespace kedge
         term->book_outflow(gone, model.ledger);
     }
     activated = false;
+    set_time(trial.times.t_n + trial.times.dt);
     book_present_state();
   }
 

@@ -62,7 +62,8 @@ namespace kedge
     for (const auto &condition : model.scene.node_conditions)
       {
         const NodeRegion<dim> region(condition, model.scene.constants);
-        if (!(region.has_limits() ||
+        if (region.follows_time() || // it says itself what it holds when
+            !(region.has_limits() ||
               (condition.on_side && (moves(condition) || !condition.pore_pressure.empty()))))
           continue;
         std::vector<bool> holds_body(model.bodies.names.size(), condition.body.empty());

@@ -17,7 +17,8 @@ namespace kedge
     const std::vector<std::string>                  &body_names,
     const std::map<std::string, double>             &constants,
     const LoadProgram                               &program,
-    const Scheme                                    &scheme)
+    const Scheme                                    &scheme,
+    const std::vector<const SurfaceTerm<dim> *>     &surfaces)
     : field(field)
     , patch(patch)
     , conditions(conditions)
@@ -25,7 +26,7 @@ namespace kedge
     , body_names(body_names)
     , program(program)
     , scheme(scheme)
-    , faces("Body condition", {conditions.begin(), conditions.end()}, constants)
+    , faces("Body condition", {conditions.begin(), conditions.end()}, constants, surfaces)
   {
     for (unsigned int c = 0; c < conditions.size(); ++c)
       for (const PrescribedLine<dim> &given : conditions[c].lines)
@@ -73,12 +74,15 @@ namespace kedge
       cell_size[d] = lattice.h[d] * lattice.node_intervals;
     functions.clear();
     for (unsigned int c = 0; c < conditions.size(); ++c)
-      functions.emplace_back(faces.extent(c), conditions[c].side / 2, cell_size);
+      functions.push_back(
+        faces.start_of_facets(c).empty()
+          ? FaceMultipliers<dim>(faces.extent(c), conditions[c].side / 2, cell_size)
+          : FaceMultipliers<dim>(faces.start_of_facets(c), cell_size));
     unsigned int n = 0;
     for (Line &line : lines)
       {
         line.first = n;
-        n += faces.extent(line.condition).n_faces > 0 ? functions[line.condition].size() : 0;
+        n += faces.any(line.condition) ? functions[line.condition].size() : 0;
         line.end = n;
       }
     area.assign(n, 0.);

@@ -8,12 +8,12 @@ namespace kedge
 {
   template <int dim>
   void
-  BodySurface<dim>::seed(const SurfaceMesh<dim> &seeded)
+  BodySurface<dim>::seed(const SurfaceMesh<dim> &seeded, const EdgeLengths &edges)
   {
-    mesh_ = seeded;
-    reference_areas.clear();
+    this->edges = edges;
+    committed   = {seeded, seeded.vertices, {}};
     for (unsigned int f = 0; f < n_facets(); ++f)
-      reference_areas.push_back(area_vector<dim>(mesh_.corners(f)).norm());
+      committed.reference_areas.push_back(area_vector<dim>(seeded.corners(f)).norm());
   }
 
 
@@ -116,12 +116,12 @@ namespace kedge
     for (unsigned int f = 0; f < n_facets(); ++f)
       {
         dealii::Point<dim> middle;
-        for (const unsigned int v : mesh_.facets[f])
-          middle += mesh_.vertices[v] / dim;
+        for (const unsigned int v : mesh().facets[f])
+          middle += mesh().vertices[v] / dim;
         if (!no_points && !open_sides.let_out(patch.grid().lattice(), middle))
           continue;
-        mesh_.left.resize(n_facets());
-        mesh_.left[f] = true;
+        committed.mesh.left.resize(n_facets());
+        committed.mesh.left[f] = true;
       }
   }
 
@@ -132,10 +132,10 @@ namespace kedge
   std::vector<bool>
   BodySurface<dim>::vertices_that_stay() const
   {
-    std::vector<bool> result(n_vertices(), mesh_.left.empty());
+    std::vector<bool> result(n_vertices(), committed.mesh.left.empty());
     for (unsigned int f = 0; f < n_facets(); ++f)
-      if (!mesh_.has_left(f))
-        for (const unsigned int v : mesh_.facets[f])
+      if (!mesh().has_left(f))
+        for (const unsigned int v : mesh().facets[f])
           result[v] = true;
     return result;
   }
@@ -156,7 +156,7 @@ namespace kedge
       {
         if (!stays[v])
           continue;
-        const LatticeIndex<dim> cell = root_cell(mesh_.vertices[v], filling, search_radius);
+        const LatticeIndex<dim> cell = root_cell(mesh().vertices[v], filling, search_radius);
         for (unsigned int c = 0; c < n_corners; ++c)
           {
             LatticeIndex<dim> node = cell;
@@ -189,7 +189,7 @@ namespace kedge
       {
         if (!stays[v])
           continue;
-        const dealii::Point<dim> &x    = mesh_.vertices[v];
+        const dealii::Point<dim> &x    = mesh().vertices[v];
         const LatticeIndex<dim>   cell = root_cell(x, filling, search_radius);
         is_own[v]                      = patch.grid().cell_owner(cell) == rank;
         if (!is_own[v] && !is_known)
@@ -290,10 +290,23 @@ namespace kedge
 
   template <int dim>
   void
-  BodySurface<dim>::commit(const std::vector<dealii::Tensor<1, dim>> &displacements)
+  BodySurface<dim>::move(const std::vector<dealii::Tensor<1, dim>> &displacements)
   {
+    moved = committed;
     for (unsigned int v = 0; v < n_vertices(); ++v)
-      mesh_.vertices[v] += displacements[v];
+      moved.mesh.vertices[v] += displacements[v];
+    heritage_ = adapt<dim>(moved, edges);
+  }
+
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::commit()
+  {
+    committed = std::move(moved);
+    if (!heritage_.empty())
+      ++generation_;
   }
 
 
@@ -303,13 +316,14 @@ namespace kedge
   BodySurface<dim>::save() const
   {
     std::vector<double> result = {double(n_vertices()), double(n_facets())};
-    for (const auto &x : mesh_.vertices)
-      result.insert(result.end(), x.begin_raw(), x.end_raw());
-    for (const auto &facet : mesh_.facets)
+    for (const auto *places : {&mesh().vertices, &committed.start})
+      for (const auto &x : *places)
+        result.insert(result.end(), x.begin_raw(), x.end_raw());
+    for (const auto &facet : mesh().facets)
       result.insert(result.end(), facet.begin(), facet.end());
-    result.insert(result.end(), reference_areas.begin(), reference_areas.end());
+    result.insert(result.end(), committed.reference_areas.begin(), committed.reference_areas.end());
     for (unsigned int f = 0; f < n_facets(); ++f)
-      if (mesh_.has_left(f))
+      if (mesh().has_left(f))
         result.push_back(f);
     return result;
   }
@@ -321,23 +335,27 @@ namespace kedge
   BodySurface<dim>::restore(const std::vector<double> &saved)
   {
     AssertThrow(saved.size() >= 2, dealii::ExcInternalError());
-    mesh_.vertices.resize(static_cast<std::size_t>(saved[0]));
-    mesh_.facets.resize(static_cast<std::size_t>(saved[1]));
-    reference_areas.resize(mesh_.facets.size());
-    Assert(saved.size() >= 2 + dim * n_vertices() + (dim + 1) * n_facets(),
+    SurfaceMesh<dim> &mesh = committed.mesh;
+    mesh.vertices.resize(static_cast<std::size_t>(saved[0]));
+    committed.start.resize(mesh.vertices.size());
+    mesh.facets.resize(static_cast<std::size_t>(saved[1]));
+    committed.reference_areas.resize(mesh.facets.size());
+    Assert(saved.size() >= 2 + 2 * dim * n_vertices() + (dim + 1) * n_facets(),
            dealii::ExcInternalError());
     auto next = saved.begin() + 2;
-    for (auto &x : mesh_.vertices)
-      for (int d = 0; d < dim; ++d)
-        x[d] = *next++;
-    for (auto &facet : mesh_.facets)
+    for (auto *places : {&mesh.vertices, &committed.start})
+      for (auto &x : *places)
+        for (int d = 0; d < dim; ++d)
+          x[d] = *next++;
+    for (auto &facet : mesh.facets)
       for (unsigned int &vertex : facet)
         vertex = static_cast<unsigned int>(*next++);
-    for (double &area : reference_areas)
+    for (double &area : committed.reference_areas)
       area = *next++;
-    mesh_.left.assign(next == saved.end() ? 0 : n_facets(), false);
+    mesh.left.assign(next == saved.end() ? 0 : n_facets(), false);
     for (; next != saved.end(); ++next)
-      mesh_.left[static_cast<std::size_t>(*next)] = true;
+      mesh.left[static_cast<std::size_t>(*next)] = true;
+    ++generation_; // those who know the facets by number read them anew
   }
 
   template class BodySurface<2>;

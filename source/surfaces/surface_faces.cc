@@ -99,21 +99,20 @@ namespace kedge
     faces_of.clear();
     facets = SurfaceFacets<dim>();
     extents.assign(parameters.size(), SurfaceExtent<dim>());
+    facets_at_start.assign(parameters.size(), {});
     for (unsigned int s = 0; s < parameters.size(); ++s)
       {
         const auto &p     = parameters[s];
         const auto  where = p.where.empty()
                               ? Expression(1.)
                               : Expression(p.where, {"x", "y", "z", "nx", "ny", "nz"}, constants);
-        bool        any   = false;
         if (on_facets(s))
-          any = facets.choose(s, p, where, *on_facets(s)) > 0.;
+          facets_at_start[s] = facets.choose(s, p, where, *on_facets(s));
         else
           for (unsigned int side = 0; side < 2 * dim; ++side)
             if (p.side == side || p.side == 2 * dim)
               attach_to_points(s, side, where, points, body_names);
-        if (any || extents[s].n_faces > 0 ||
-            (where.is_constant() && where.value() == 0.)) // Where = 0 switches it off
+        if (any(s) || (where.is_constant() && where.value() == 0.)) // Where = 0 switches it off
           continue;
         if (p.section)
           throw UserError(what + " '" + p.name + "' finds no material point of body '" + p.body +
@@ -132,6 +131,8 @@ namespace kedge
   SurfaceFaces<dim>::on_facets(const unsigned int surface) const
   {
     const auto &p = parameters[surface];
+    if (p.section)
+      return nullptr;
     for (const SurfaceTerm<dim> *term : surfaces)
       if (term->surface().body_name == p.body && term->has_facets(p.side))
         return &term->surface();

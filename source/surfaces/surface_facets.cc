@@ -152,27 +152,42 @@ namespace kedge
 
 
   template <int dim>
-  double
+  std::vector<PlaceOfSurface<dim>>
   SurfaceFacets<dim>::choose(const unsigned int       number,
                              const SurfaceParameters &parameters,
                              const Expression        &where,
                              const BodySurface<dim>  &surface)
   {
-    Chosen result{number, &surface, surface.mesh(), {}};
-    double area = 0.;
+    Chosen result{number, parameters.side, where, &surface, 0, {}};
+    choose_parts(result);
+    std::vector<PlaceOfSurface<dim>> places;
+    for (const Part &part : result.parts)
+      for (const auto &gauss : quadrature<dim>())
+        places.push_back({place_on_facet<dim>(surface.corners_at_start(part.facet),
+                                              part.covered.place(gauss.place)),
+                          gauss.weight * part.covered.fraction() * part.area});
+    chosen.push_back(std::move(result));
+    return places;
+  }
+
+
+
+  /** The facets, or the parts of them, that were to be chosen at the start of the run. */
+  template <int dim>
+  void
+  SurfaceFacets<dim>::choose_parts(Chosen &chosen)
+  {
+    const BodySurface<dim> &surface = *chosen.surface;
+    chosen.generation               = surface.generation();
+    chosen.parts.clear();
     for (unsigned int f = 0; f < surface.n_facets(); ++f)
       {
-        const auto corners = surface.mesh().corners(f);
-        if (!looks_to<dim>(parameters.side, area_vector<dim>(corners)))
+        const auto corners = surface.corners_at_start(f);
+        if (!looks_to<dim>(chosen.side, area_vector<dim>(corners)))
           continue;
-        for (const auto &part : parts_where<dim>(where, corners))
-          {
-            result.parts.push_back({f, surface.reference_area(f), part});
-            area += part.fraction() * surface.reference_area(f);
-          }
+        for (const auto &part : parts_where<dim>(chosen.where, corners))
+          chosen.parts.push_back({f, surface.reference_area(f), part});
       }
-    chosen.push_back(std::move(result));
-    return area;
   }
 
 
@@ -237,7 +252,7 @@ namespace kedge
         if (here.surface->mesh().has_left(part.facet))
           continue;
         const auto corners = here.surface->mesh().corners(part.facet);
-        const auto start   = here.start.corners(part.facet);
+        const auto start   = here.surface->corners_at_start(part.facet);
         const auto area = area_vector<dim>(corners), area_at_start = area_vector<dim>(start);
         for (const auto &piece : cut_to_cells<dim>(lattice, corners, part.covered))
           {
@@ -265,14 +280,15 @@ namespace kedge
 
   template <int dim>
   void
-  SurfaceFacets<dim>::add_points(const Patch<dim>               &patch,
-                                 std::vector<SurfacePoint<dim>> &points) const
+  SurfaceFacets<dim>::add_points(const Patch<dim> &patch, std::vector<SurfacePoint<dim>> &points)
   {
     const auto &lattice = patch.grid().lattice();
-    for (const Chosen &here : chosen)
+    for (Chosen &here : chosen)
       {
         if (&here.surface->patch != &patch)
           continue;
+        if (here.generation != here.surface->generation())
+          choose_parts(here);
         const BasisKind basis      = patch.basis_of(here.surface->body);
         auto            candidates = candidates_on(here, lattice);
         find_points<dim>(PointsOfBody<dim>(patch, here.surface->body),

@@ -39,8 +39,10 @@ namespace kedge
     dealii::Point<dim> upper;
     for (int d = 0; d < dim; ++d)
       upper[d] = lattice.upper(d);
-    surface_.seed(
-      seed_surface(*geometry, spacing, dealii::BoundingBox<dim>({lattice.origin, upper})));
+    surface_.seed(seed_surface(*geometry,
+                               spacing,
+                               dealii::BoundingBox<dim>({lattice.origin, upper})),
+                  EdgeLengths::around(spacing));
     if (surface_.n_facets() == 0)
       throw UserError("The surface of body '" + surface_.body_name +
                       "' cannot be found: at the spacing of its points the body has no inside.");
@@ -74,7 +76,9 @@ namespace kedge
   Answer
   SurfaceTerm<dim>::finish(const Trial<dim> &trial)
   {
+    std::vector<dealii::Tensor<1, dim>> displacements;
     surface_.interpolate(trial.displacement(surface_.field), displacements);
+    surface_.move(displacements);
     return {};
   }
 
@@ -84,7 +88,7 @@ namespace kedge
   void
   SurfaceTerm<dim>::commit(const Trial<dim> &, MaterialPoints<dim> &)
   {
-    surface_.commit(displacements);
+    surface_.commit();
   }
 
 

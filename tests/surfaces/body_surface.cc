@@ -38,7 +38,7 @@ namespace
           low[d]  = lattice.origin[d] + 3.2 * lattice.h[d];
           high[d] = lattice.origin[d] + 6.7 * lattice.h[d];
         }
-      surface.seed(mesh_of_box<dim>(low, high, 0.2));
+      surface.seed(mesh_of_box<dim>(low, high, 0.2), EdgeLengths{1e3, 0.});
       surface.find_roots();
     }
 
@@ -122,7 +122,8 @@ TYPED_TEST(SurfacesBodySurface, ASavedSurfaceIsTheSameBitForBit)
   std::vector<dealii::Tensor<1, dim>> u(box.surface.n_vertices());
   for (std::size_t v = 0; v < u.size(); ++v)
     u[v][v % dim] = 1. / (3. + v);
-  box.surface.commit(u);
+  box.surface.move(u);
+  box.surface.commit();
   other.surface.restore(box.surface.save());
   EXPECT_EQ(other.surface.save(), box.surface.save());
   EXPECT_EQ(other.surface.mesh().vertices, box.surface.mesh().vertices);
@@ -147,7 +148,8 @@ TYPED_TEST(SurfacesBodySurface, FacetsLeaveThroughOpenSidesForGood)
   EXPECT_TRUE(surface.mesh().left.empty());
   dealii::Tensor<1, dim> push;
   push[0] = lattice.upper(0) - lattice.origin[0] - 4.9 * lattice.h[0];
-  surface.commit(std::vector<dealii::Tensor<1, dim>>(surface.n_vertices(), push));
+  surface.move(std::vector<dealii::Tensor<1, dim>>(surface.n_vertices(), push));
+  surface.commit();
   surface.find_roots();
   std::set<unsigned int> kept_vertices;
   unsigned int           n_left = 0;
@@ -168,7 +170,8 @@ TYPED_TEST(SurfacesBodySurface, FacetsLeaveThroughOpenSidesForGood)
     EXPECT_NEAR(u[v][0], kept_vertices.count(v) > 0 ? 0.3 : 0., 1e-13) << v;
 
   // pushed back into the grid, what has left does not come back; nor does it in a resumed run
-  surface.commit(std::vector<dealii::Tensor<1, dim>>(surface.n_vertices(), -push));
+  surface.move(std::vector<dealii::Tensor<1, dim>>(surface.n_vertices(), -push));
+  surface.commit();
   surface.find_roots();
   EXPECT_EQ(std::count(surface.mesh().left.begin(), surface.mesh().left.end(), true), n_left);
   CarriedBox<dim> other(open);

@@ -39,7 +39,7 @@ namespace
     {
       for (int d = 0; d < dim; ++d)
         centre[d] = cloud.grid.lattice().origin[d] + 4.1 * cloud.grid.lattice().h[d];
-      surface.seed(mesh_of_ball<dim>(centre, 0.4, 0.1));
+      surface.seed(mesh_of_ball<dim>(centre, 0.4, 0.1), EdgeLengths::around(0.1));
     }
 
     /** The points of the facets with a normal to a side (2 dim: all) and where a condition holds.

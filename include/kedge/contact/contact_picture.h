@@ -69,6 +69,11 @@ namespace kedge
     std::map<const BodySurface<dim> *, std::vector<std::size_t>> numbers;
   };
 
+  /** What a step has done, on the facets that it has led to (BodySurface::heritage()). */
+  template <int dim>
+  std::vector<ContactPlace<dim>>
+  on_facets_after_step(std::vector<ContactPlace<dim>> &&places);
+
   /** A contact of which pictures can be made. */
   template <int dim>
   class ShownContact

@@ -58,6 +58,8 @@ namespace kedge
     bool                has_wall  = false;
     unsigned int        wall_side = 0;           ///< 2*direction + (0: low, 1: high)
     std::vector<double> wall_point, wall_normal; ///< empty: those of the side
+    /** How far it has moved since the start, expressions of t [m]; empty: it stands. */
+    std::vector<std::string> wall_displacement;
   };
 } // namespace kedge
 

@@ -1,7 +1,7 @@
 #ifndef kedge_contact_surface_samples_h
 #define kedge_contact_surface_samples_h
 
-#include <kedge/contact/contact_law.h>
+#include <kedge/contact/closed_contact.h>
 #include <kedge/contact/shear_limit.h>
 #include <kedge/surfaces/body_surface.h>
 #include <kedge/surfaces/facet_search.h>
@@ -29,6 +29,7 @@ namespace kedge
     const BodySurface<dim>             &surface;
     const bool                          carries_water;
     const Material                     *clay;
+    unsigned int                        generation = 0; ///< of the surface's facets
     std::vector<double>                 pore_pressures; ///< at the vertices, of the balance [Pa]
     std::vector<double>                 strengths;      ///< at the vertices, s_u; empty: none [Pa]
     SurfaceMesh<dim>                    mesh;           ///< in the configuration of the balance
@@ -65,12 +66,9 @@ namespace kedge
     };
 
     /** What is committed of a sample that is closed, or that cannot yet be measured as open. */
-    struct Memory
+    struct Memory : ClosedContact<dim>
     {
-      unsigned int           partner;    ///< facet
-      double                 gap;        ///< [m]
-      double                 multiplier; ///< [Pa]
-      dealii::Tensor<1, dim> slip;       ///< elastic part [m]
+      unsigned int           partner = 0; ///< facet
       dealii::Tensor<1, dim> normal;
     };
 
@@ -233,12 +231,10 @@ namespace kedge
     double
     stored() const
     {
-      return stored_of(memory);
+      return share * stored_by_facets(law, memory, [&](const unsigned int facet) {
+               return sampled.surface.reference_area(facet);
+             });
     }
-
-    /** Energy that remembered samples store [J]. */
-    double
-    stored_of(const std::map<unsigned int, Memory> &remembered) const;
 
     /** The same of the present samples at the start of the step [J]. */
     double
@@ -247,6 +243,17 @@ namespace kedge
     /** What is to be remembered of the step, and its stored energy [J]. */
     std::map<unsigned int, Memory>
     memory_of_step(double &stored) const;
+
+    /** Hands it on to the facets that the step leads to. */
+    std::map<unsigned int, Memory>
+    handed_on(std::map<unsigned int, Memory> &&of_step) const;
+
+    /** Energy that samples store after the step, by what those facets remember [J]. */
+    double
+    stored_after_step(const std::map<unsigned int, Memory> &handed_on) const
+    {
+      return share * kedge::stored_after_step<dim>(law, sampled.surface, handed_on);
+    }
 
     void
     commit(std::map<unsigned int, Memory> &&of_step)

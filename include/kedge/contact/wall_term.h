@@ -1,6 +1,9 @@
 #ifndef kedge_contact_wall_term_h
 #define kedge_contact_wall_term_h
 
+#include <kedge/base/expression.h>
+#include <kedge/base/load_program.h>
+#include <kedge/contact/closed_contact.h>
 #include <kedge/contact/contact_picture.h>
 #include <kedge/contact/shear_limit.h>
 #include <kedge/equations/term.h>
@@ -22,6 +25,29 @@ namespace kedge
     }
   };
 
+  /** How far a wall has moved since the start. */
+  template <int dim>
+  struct WallMotion
+  {
+    std::vector<Expression> components; ///< of t [m]; empty: it stands
+    LoadProgram             program;
+
+    bool
+    moves() const
+    {
+      return !components.empty();
+    }
+
+    dealii::Tensor<1, dim>
+    displacement(const double t) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (std::size_t d = 0; d < components.size(); ++d)
+        result[d] = components[d]({program.time(t)});
+      return result;
+    }
+  };
+
   /** A body that may touch a wall, and how stiff the contact is. */
   template <int dim>
   struct WallBody
@@ -33,11 +59,13 @@ namespace kedge
   };
 
   /**
-   * Contact of bodies with a rigid plane: the middles of a surface's facets that look towards it
-   * are samples, and the law is contact_response() with the displacement of the sample alone,
-   *   R -= sum of A B^T (p n + t),   D = B u.
+   * Contact of bodies with a rigid plane, which may move: the middles of a surface's facets that
+   * look towards it are samples, and the law is contact_response() with the displacement of the
+   * sample less that of the wall over the step, w,
+   *   R -= sum of A B^T (p n + t),   D = B u - w.
    * The gap n.(x - x_wall) is linear in D, so that the carried gap of conserving steps is the
-   * measured one. Without inertia the pressures are found by Uzawa's iteration, as in ContactTerm.
+   * measured one. The wall's work is sum of A (p n + t).w. Without inertia the pressures are found
+   * by Uzawa's iteration, as in ContactTerm.
    */
   template <int dim>
   class WallTerm
@@ -57,6 +85,7 @@ namespace kedge
 
     WallTerm(const ContactParameters             &parameters,
              const WallPlane<dim>                &plane,
+             const WallMotion<dim>               &motion,
              const std::vector<WallBody<dim>>    &bodies,
              const std::map<std::string, double> &constants,
              const Scheme                        &scheme,
@@ -112,12 +141,7 @@ namespace kedge
     show(ContactPicture<dim> &picture) const override;
 
   private:
-    /** What a facet's middle carries from step to step while it is closed. */
-    struct Closed
-    {
-      double                 gap = 0., multiplier = 0.; ///< [m], [Pa]
-      dealii::Tensor<1, dim> slip;                      ///< its elastic part [m]
-    };
+    using Closed = ClosedContact<dim>;
     using Memory = std::map<unsigned int, Closed>; ///< by facet
 
     struct Sample
@@ -148,6 +172,16 @@ namespace kedge
     move(const Trial<dim> &trial);
     dealii::Tensor<1, dim>
     displacement(const Side &side, const Sample &sample) const;
+    dealii::Tensor<1, dim>
+    relative_displacement(const Side &side, const Sample &sample) const
+    {
+      return displacement(side, sample) - moves_by;
+    }
+    WallPlane<dim>
+    plane_at(const double t) const
+    {
+      return {plane_at_rest.point + motion.displacement(t), plane_at_rest.normal};
+    }
     ContactResponse<dim>
     response(const Side &side, const Sample &sample) const;
     static double
@@ -162,7 +196,10 @@ namespace kedge
     middle(const Side &side, const unsigned int facet) const;
 
     const ContactParameters        parameters;
-    const WallPlane<dim>           plane;
+    const WallPlane<dim>           plane_at_rest; ///< before it has moved
+    const WallMotion<dim>          motion;
+    WallPlane<dim>                 plane;    ///< at the start of the step
+    dealii::Tensor<1, dim>         moves_by; ///< in the step [m]
     const double                   cell_size, alpha;
     const bool                     at_rest;
     ShearLimit<dim>                shear_limit;
@@ -171,6 +208,7 @@ namespace kedge
     double            released  = 0.; ///< energy of samples that no longer look here [J]
     unsigned int      n_updates = 0;
     ContactBooks<dim> books;
+    Ledger::Index     work = 0; ///< of the wall, if it moves
   };
 } // namespace kedge
 

@@ -23,8 +23,28 @@ namespace kedge
                    const std::map<std::string, double>             &constants,
                    const LoadProgram                               &program = {});
 
-    /** Finds the prescribed components of the active nodes. */
-    void
+    /**
+     * Sets the time at which a Where that depends on it is asked [s]: that of the start of the
+     * step, over which nodes stay prescribed or free.
+     *
+     * @return whether that may change which components are prescribed
+     */
+    bool
+    set_time(const double t);
+
+    /** Whether which components are prescribed may change with time. */
+    bool
+    follows_time() const
+    {
+      return follows_time_;
+    }
+
+    /**
+     * Finds the prescribed components of the active nodes.
+     *
+     * @return whether they are others than before
+     */
+    bool
     reinit(const BackgroundGrid<dim> &grid, const ActiveNodes<dim> &nodes);
 
     /** True if component @p d of local node @p node is prescribed. */
@@ -107,9 +127,11 @@ namespace kedge
     std::vector<dealii::Point<dim>> place;        ///< of each local node; empty without motions
     std::vector<short>              condition_of; ///< of each local node and component, or -1
     std::vector<short> pressure_condition_of; ///< of each local node, or -1; empty: no condition
-    bool               any_moving_  = false;
-    bool               any_pressure = false;
-    bool               needs_place  = false; ///< any motion or pressure
+    double             time          = 0.;    ///< at which a Where is asked [s]
+    bool               any_moving_   = false;
+    bool               any_pressure  = false;
+    bool               follows_time_ = false;
+    bool               needs_place   = false; ///< any motion or pressure
   };
 } // namespace kedge
 

@@ -6,8 +6,17 @@
 
 namespace kedge
 {
+  /** Whether a Where of x, y, z and t depends on the time t. */
+  inline bool
+  depends_on_time(const std::string &where, std::map<std::string, double> constants)
+  {
+    for (const char *coordinate : {"x", "y", "z"})
+      constants[coordinate] = 0.;
+    return !Expression(where, {"t"}, constants).is_constant();
+  }
+
   /** The nodes of the grid that a node condition holds: those on a side, or where its Where is
-   * true. */
+   * true; at the start of the run, if that depends on time. */
   template <int dim>
   class NodeRegion
   {
@@ -18,7 +27,8 @@ namespace kedge
       : on_side(condition.on_side)
       , side(condition.side)
       , where(condition.on_side ? Expression(1.)
-                                : Expression(condition.where, {"x", "y", "z"}, constants))
+                                : Expression(condition.where, {"x", "y", "z", "t"}, constants))
+      , follows_time_(!on_side && depends_on_time(condition.where, constants))
     {}
 
     /** Whether a place may be in it and another not, other than by being on a side. */
@@ -28,11 +38,18 @@ namespace kedge
       return !on_side && !where.is_constant();
     }
 
+    /** Whether it changes as time goes on. */
+    bool
+    follows_time() const
+    {
+      return follows_time_;
+    }
+
     /** Whether its Where is true at a place; on a side: always. */
     bool
     holds_place(const dealii::Point<dim> &x) const
     {
-      double values[3] = {0, 0, 0};
+      double values[4] = {0, 0, 0, 0};
       for (int d = 0; d < dim; ++d)
         values[d] = x[d];
       return where(values) != 0.;
@@ -51,6 +68,7 @@ namespace kedge
     bool         on_side;
     unsigned int side; ///< 2*direction + (0: low, 1: high)
     Expression   where;
+    bool         follows_time_;
   };
 } // namespace kedge
 

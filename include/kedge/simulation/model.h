@@ -104,7 +104,7 @@ namespace kedge
     void
     choose_rigid_terms(const LoadProgram &program);
     void
-    choose_contact_terms();
+    choose_contact_terms(const LoadProgram &program);
     void
     choose_nodal_contact_term(const ContactParameters &contact);
     void

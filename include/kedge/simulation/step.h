@@ -90,6 +90,8 @@ namespace kedge
   private:
     void
     find_nodes();
+    void
+    set_time(const double t);
     LinearStatus
     points_to_nodes();
     NewtonReport

@@ -34,6 +34,7 @@ namespace kedge
      * @param conditions on bodies of the field
      * @param stiffness  of each of these bodies: modulus over size of a cell [Pa/m]
      * @param program    when forces are evaluated
+     * @param surfaces   that bodies carry, on which conditions on oblique and curved sides act
      */
     BodyConditionTerm(const unsigned int                               field,
                       const Patch<dim>                                &patch,
@@ -42,7 +43,8 @@ namespace kedge
                       const std::vector<std::string>                  &body_names,
                       const std::map<std::string, double>             &constants,
                       const LoadProgram                               &program,
-                      const Scheme                                    &scheme);
+                      const Scheme                                    &scheme,
+                      const std::vector<const SurfaceTerm<dim> *>     &surfaces = {});
 
     std::string
     name() const override

@@ -4,6 +4,7 @@
 #include <kedge/fields/patch.h>
 #include <kedge/geometry/surface_mesh.h>
 #include <kedge/grid/open_sides.h>
+#include <kedge/surfaces/adapted_surface.h>
 
 namespace kedge
 {
@@ -13,7 +14,9 @@ namespace kedge
    * that cell, extrapolated to the vertex, dx = sum_I N_I(x) u_I,   sum_I N_I = 1,   sum_I N_I x_I
    * = x. Rigid motions are therefore followed to round-off, and forces that act on vertices come to
    * the nodes with their resultant and their moment, and with nothing for nodes that next to no
-   * mass belongs to. What a step tries is not kept here; commit() moves the surface.
+   * mass belongs to. What a step tries is not kept here: move() says where its end would bring the
+   * surface, commit() goes there. Facets that a step has stretched are divided at its end, facets
+   * that it has drawn together become one (adapt()).
    *
    * Facets whose middle is beyond an open side of the grid have left it with their material, and so
    * have all once the body has no points left. They stay where they were and act on nothing.
@@ -52,9 +55,9 @@ namespace kedge
       , open_sides(open_sides)
     {}
 
-    /** Takes its vertices and facets. */
+    /** Takes its vertices and facets; they are adapted to @p edges as the body moves. */
     void
-    seed(const SurfaceMesh<dim> &seeded);
+    seed(const SurfaceMesh<dim> &seeded, const EdgeLengths &edges);
 
     /**
      * Flags the nodes of all root cells in the configuration that the patch has just read, one
@@ -71,27 +74,41 @@ namespace kedge
     unsigned int
     n_vertices() const
     {
-      return static_cast<unsigned int>(mesh_.vertices.size());
+      return static_cast<unsigned int>(mesh().vertices.size());
     }
 
     unsigned int
     n_facets() const
     {
-      return static_cast<unsigned int>(mesh_.facets.size());
+      return static_cast<unsigned int>(mesh().facets.size());
     }
 
     /** The committed places, and the facets. */
     const SurfaceMesh<dim> &
     mesh() const
     {
-      return mesh_;
+      return committed.mesh;
+    }
+
+    /** Corners of a facet at the start of the run [m]. */
+    std::array<dealii::Point<dim>, dim>
+    corners_at_start(const unsigned int facet) const
+    {
+      return committed.corners_at_start(facet);
     }
 
     /** Area of a facet at the start of the run [m^2; m in 2D]. */
     double
     reference_area(const unsigned int facet) const
     {
-      return reference_areas[facet];
+      return committed.reference_areas[facet];
+    }
+
+    /** How often its facets have changed, other than by moving. */
+    unsigned int
+    generation() const
+    {
+      return generation_;
     }
 
     /** Values at the vertices of a nodal vector with dim components per local node (collective). */
@@ -141,9 +158,21 @@ namespace kedge
               const dealii::Tensor<1, dim> &force,
               std::vector<double>          &sums) const;
 
-    /** Moves the vertices. */
+    /** Where a step would bring the vertices, and what would become of the facets. */
     void
-    commit(const std::vector<dealii::Tensor<1, dim>> &displacements);
+    move(const std::vector<dealii::Tensor<1, dim>> &displacements);
+
+    /** Of the facets that move() leads or has led to: what those before it remember goes over by
+     * it. Empty if they are the same. */
+    const FacetHeritage &
+    heritage() const
+    {
+      return heritage_;
+    }
+
+    /** Goes to where move() has led. */
+    void
+    commit();
 
     /** What a checkpoint keeps of it, and takes back. */
     std::vector<double>
@@ -175,8 +204,10 @@ namespace kedge
               const int                  radius) const;
 
     const OpenSides<dim>                       open_sides;
-    SurfaceMesh<dim>                           mesh_;
-    std::vector<double>                        reference_areas;
+    EdgeLengths                                edges;
+    CarriedSurface<dim>                        committed, moved;
+    FacetHeritage                              heritage_;
+    unsigned int                               generation_ = 0;
     std::vector<Corners>                       roots; ///< local nodes of the root cells in use here
     std::vector<unsigned int>                  root_of_vertex;
     std::vector<bool>                          is_own; ///< by vertex: the root cell is this rank's

@@ -12,6 +12,12 @@ namespace kedge
    * face. They add up to one and hold all linear functions, so that forces, moments and rigid
    * motions are exact. Twice as wide as cells they are few enough for any place of the
    * surface among the nodes of the grid (inf-sup).
+   *
+   * On oblique and curved surfaces they are those of a lattice in space, seen on the surface. Nodes
+   * whose functions say nearly the same there, as those on both sides of the surface do, and those
+   * that it hardly touches, share one function, the sum of theirs: these add up to one too, and
+   * what they impose of a motion is true for every rigid one, for it is the difference between
+   * the motion and the displacement that has no mean.
    */
   template <int dim>
   class FaceMultipliers
@@ -29,9 +35,21 @@ namespace kedge
                     const unsigned int            direction,
                     const dealii::Tensor<1, dim> &cell_size);
 
+    /**
+     * On any surface.
+     *
+     * @param places    on it at the start, with the areas that they stand for
+     * @param cell_size by direction [m]
+     */
+    FaceMultipliers(const std::vector<PlaceOfSurface<dim>> &places,
+                    const dealii::Tensor<1, dim>           &cell_size);
+
     /** How many functions there are. */
     unsigned int
-    size() const;
+    size() const
+    {
+      return n_functions;
+    }
 
     /** Calls visit(number, value) for the functions at a place of the start. */
     template <typename Visit>
@@ -51,11 +69,16 @@ namespace kedge
               stride *= n_intervals[d] + 1;
             }
           if (value != 0.)
-            visit(number, value);
+            visit(function_of_node.empty() ? number : function_of_node[number], value);
         }
     }
 
   private:
+    unsigned int
+    n_nodes() const;
+    void
+    unite_nodes(const std::vector<PlaceOfSurface<dim>> &places);
+
     /** The interval in which a place lies, and where in it; (0, 0) in a direction without any. */
     std::pair<unsigned int, double>
     interval(const dealii::Point<dim> &place, const int d) const
@@ -70,7 +93,9 @@ namespace kedge
 
     std::array<unsigned int, std::size_t(dim)> n_intervals;
     dealii::Point<dim>                         low;
-    dealii::Tensor<1, dim>                     width; ///< of an interval [m]
+    dealii::Tensor<1, dim>                     width;            ///< of an interval [m]
+    std::vector<unsigned int>                  function_of_node; ///< empty: each has its own
+    unsigned int                               n_functions = 0;
   };
 } // namespace kedge
 

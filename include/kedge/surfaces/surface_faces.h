@@ -48,11 +48,26 @@ namespace kedge
     void
     attach(std::vector<GeneratedPoint<dim>> &points, const std::vector<std::string> &body_names);
 
-    /** Of a surface, on all ranks, after attach(). */
+    /** Of a surface of points' faces, on all ranks, after attach(). */
     const SurfaceExtent<dim> &
     extent(const unsigned int surface) const
     {
       return extents[surface];
+    }
+
+    /** Places on the facets of a surface that consists of such, and areas that they stand for, at
+     * the start of the run; on all ranks, after attach(). */
+    const std::vector<PlaceOfSurface<dim>> &
+    start_of_facets(const unsigned int surface) const
+    {
+      return facets_at_start[surface];
+    }
+
+    /** Whether a surface has found any face, after attach(). */
+    bool
+    any(const unsigned int surface) const
+    {
+      return extents[surface].n_faces > 0 || !facets_at_start[surface].empty();
     }
 
     /** Reads the faces of this rank's points as they are at the start of a step. */
@@ -122,6 +137,7 @@ namespace kedge
     SurfaceFacets<dim>                                   facets;
     std::vector<SurfacePoint<dim>>                       faces;
     std::vector<SurfaceExtent<dim>>                      extents; ///< one per surface
+    std::vector<std::vector<PlaceOfSurface<dim>>>        facets_at_start;
   };
 } // namespace kedge
 

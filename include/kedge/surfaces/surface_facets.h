@@ -8,6 +8,14 @@
 
 namespace kedge
 {
+  /** A place on a body's surface, and the part of its area that it stands for. */
+  template <int dim>
+  struct PlaceOfSurface
+  {
+    dealii::Point<dim> place; ///< [m]
+    double             area;  ///< [m^2; m in 2D]
+  };
+
   /**
    * The facets of surfaces that bodies carry on which something is prescribed, as points of a
    * quadrature. In each configuration the facets are cut along the lines of the grid, so that
@@ -28,9 +36,9 @@ namespace kedge
      * of @p parameters and where @p where is true (of x, y, z and the normal nx, ny, nz).
      *
      * @param number of the surface in what is prescribed
-     * @return the area [m^2]
+     * @return points of a quadrature on them, at the start of the run
      */
-    double
+    std::vector<PlaceOfSurface<dim>>
     choose(const unsigned int       number,
            const SurfaceParameters &parameters,
            const Expression        &where,
@@ -39,10 +47,11 @@ namespace kedge
     /**
      * Adds the points of the facets on bodies of a field as they are at the start of a step: on
      * several ranks each where material lies in its cell, or else where the nearest point is
-     * (collective).
+     * (collective). Where a surface has other facets than before, they are chosen anew, as they
+     * were at the start.
      */
     void
-    add_points(const Patch<dim> &patch, std::vector<SurfacePoint<dim>> &points) const;
+    add_points(const Patch<dim> &patch, std::vector<SurfacePoint<dim>> &points);
 
   private:
     struct Part
@@ -55,8 +64,10 @@ namespace kedge
     struct Chosen
     {
       unsigned int            number;
+      unsigned int            side;
+      Expression              where;
       const BodySurface<dim> *surface;
-      SurfaceMesh<dim>        start; ///< the undeformed surface
+      unsigned int            generation = 0; ///< of the surface's facets
       std::vector<Part>       parts;
     };
 
@@ -67,6 +78,8 @@ namespace kedge
       LatticeIndex<dim> cell; ///< that it belongs to: below the facet
     };
 
+    static void
+    choose_parts(Chosen &chosen);
     static std::vector<Candidate>
     candidates_on(const Chosen &here, const Lattice<dim> &lattice);
 

@@ -93,7 +93,6 @@ namespace kedge
     const bool                           contact;
     const std::vector<unsigned int>      sides;
     std::array<bool, 2 * dim + 1>        on_facets{};
-    std::vector<dealii::Tensor<1, dim>>  displacements; ///< of the step that finish() has seen
   };
 } // namespace kedge
 

@@ -24,7 +24,7 @@ namespace kedge
     double            ghost_mass_factor      = 1e-6; ///< gamma_M of (3.153) over rho [-]
     double            ghost_stiffness_factor = 1e-6; ///< gamma_K of (3.152) over E [-]
     double ghost_conductivity_factor = 1e-3; ///< gamma_K(f) of (4.177) over kappa_0/(g h^2) [-]
-    double ghost_storage_factor      = 0; ///< gamma_M(f) of (4.176) over rho_f/K_f [-]
+    double ghost_storage_factor      = 0;    ///< gamma_M(f) of (4.176) over rho_f/K_f [-]
   };
 
   struct TransferParameters
