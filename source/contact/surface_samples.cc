@@ -102,9 +102,10 @@ namespace kedge
         const auto   previous = known == memory.end() ? search.no_facet : known->second.partner;
         const auto   outward  = area_vector<dim>(corners);
         const double area     = outward.norm();
-        Sample       sample;
-        if (!(area > 0.) ||
-            !search.find(x, outward / area, reach, previous, sample.partner, guesses[f]))
+        // facets may have been divided and united since
+        const auto guess = guesses[f] < other.mesh.facets.size() ? guesses[f] : search.no_facet;
+        Sample     sample;
+        if (!(area > 0.) || !search.find(x, outward / area, reach, previous, sample.partner, guess))
           continue;
         guesses[f]   = sample.partner.facet;
         sample.facet = f;
