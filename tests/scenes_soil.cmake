@@ -58,6 +58,11 @@ kedge_add_scene_test(scene.k0_layer.dense prm/k0_layer.prm
 kedge_add_scene_test(scene.k0_layer.returned prm/k0_layer.prm SET "Constants/K0 = 0.2"
   EXPECT_EXIT 2 EXPECT_STDOUT "80 of 80 material points .100 .. began beyond the yield surface"
   EXPECT_STDERR "^$")
+# Modified Cam Clay with pore water: the element test's path; overconsolidated soil is none of it
+kedge_add_scene_test(scene.clay_undrained prm/clay_undrained.prm)
+kedge_add_scene_test(scene.clay_undrained.overconsolidated prm/clay_undrained.prm
+  SET "Materials/clay/Preconsolidation pressure = 1.5*p0" "Constants/steps = 20" EXPECT_EXIT 2
+  EXPECT_STDOUT "FAIL pore pressure" EXPECT_STDERR "^$")
 # sand that flows: to rest, with closed books and the front of the fits
 kedge_add_scene_test(scene.granular_collapse prm/granular_collapse.prm)
 # the scene can fail: with FLIP the points keep velocities that the grid does not see
