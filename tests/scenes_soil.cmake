@@ -58,6 +58,11 @@ kedge_add_scene_test(scene.k0_layer.dense prm/k0_layer.prm
 kedge_add_scene_test(scene.k0_layer.returned prm/k0_layer.prm SET "Constants/K0 = 0.2"
   EXPECT_EXIT 2 EXPECT_STDOUT "80 of 80 material points .100 .. began beyond the yield surface"
   EXPECT_STDERR "^$")
+# beyond the limit load: through failure to rest, and nothing of the kind where there is none
+kedge_add_scene_test(scene.slope_failure prm/slope_failure.prm)
+kedge_add_scene_test(scene.slope_failure.stands prm/slope_failure.prm
+  SET "Strength reduction = 1.2" "Constants/n = 5" "Constants/T = 2" EXPECT_EXIT 2
+  EXPECT_STDOUT "FAIL it slides" EXPECT_STDERR "^$")
 # Modified Cam Clay with pore water: the element test's path; overconsolidated soil is none of it
 kedge_add_scene_test(scene.clay_undrained prm/clay_undrained.prm)
 kedge_add_scene_test(scene.clay_undrained.overconsolidated prm/clay_undrained.prm
