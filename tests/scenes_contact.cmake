@@ -92,6 +92,10 @@ kedge_add_test(scene.cattaneo_mindlin.displacement LABELS scene
     --kedge $<TARGET_FILE:kedge> --output ${CMAKE_CURRENT_BINARY_DIR}/scenes/partial_slip
     --cells 16 --steps 4 --within 0.03)
 kedge_add_scene_test(scene.prism_sliding prm/prism_sliding.prm)
+# uniform pressure wherever the blocks lie on the grid
+kedge_add_scene_test(scene.patch_contact prm/patch_contact.prm)
+kedge_add_scene_test(scene.patch_contact.shifted prm/patch_contact.prm
+  SET "Constants/across = 5/8" "Constants/up = 1/2")
 # soft bodies: h = 1/2 is as far off finite elements as 0.63 %
 kedge_add_scene_test(scene.prism_soft prm/prism_soft.prm SET "Output/Points interval = 0")
 # the adhesion of clay, of the soil and of the place; the checkpoint knows from where depth counts
