@@ -15,6 +15,12 @@ endforeach()
 kedge_add_scene_test(scene.slack_line prm/slack_line.prm COMPARE_RANKS 1e-9)
 kedge_add_restart_test(scene.restart.slack_line prm/slack_line.prm KILLS 1
   SET "Constants/dt = 1e-4" "Output/Checkpoint every steps = 500")
+# contact with soil: a rigid box strikes a column
+kedge_add_scene_test(scene.box_on_column prm/box_on_column.prm)
+kedge_add_scene_test(scene.box_on_column.ranks prm/box_on_column.prm RANKS 2)
+kedge_add_scene_test(scene.box_on_column.finer prm/box_on_column.prm SET "Constants/h = 0.025")
+kedge_add_restart_test(scene.restart.box_on_column prm/box_on_column.prm KILLS 1
+  SET "Constants/h = 0.025" "Output/Checkpoint every steps = 20" "Output/Points interval = 0")
 kedge_add_scene_test(refusal.rigid_scheme prm/free_top.prm
   SET "Time/Scheme = newmark" EXPECT_EXIT 1
   EXPECT_STDERR "Rigid bodies: Time/Scheme must be" LABELS refusal)

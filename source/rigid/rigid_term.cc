@@ -129,6 +129,25 @@ namespace kedge
 
 
 
+  /** Where contact looks first: what is free goes on as it moves. */
+  template <int dim>
+  void
+  RigidTerm<dim>::predict(RigidBody &body) const
+  {
+    if (!scheme.dynamic)
+      return;
+    const Vector3 rate = body.attitude_start * body.state.angular_velocity;
+    for (unsigned int k = 0; k < 3; ++k)
+      {
+        if (body.unknowns[k] != RigidBody::held)
+          body.displacement[k] = times.dt * body.state.velocity[k];
+        if (body.unknowns[k + 3] != RigidBody::held)
+          body.theta[k] = times.dt * rate[k];
+      }
+  }
+
+
+
   template <int dim>
   void
   RigidTerm<dim>::start(Trial<dim> &trial)
@@ -155,10 +174,13 @@ namespace kedge
               else
                 turn[k - 3] = value;
             }
+        predict(rigid[b]);
         const double  angle = turn.norm();
         const Vector3 theta = angle > 0. ? cayley_vector(turn / angle, angle) : Vector3();
         for (unsigned int k = 3; k < 6; ++k)
-          rigid.hold(b, k, theta[k - 3]);
+          if (rigid[b].unknowns[k] == RigidBody::held)
+            rigid.hold(b, k, theta[k - 3]);
+        rigid[b].attitude_end = cayley(rigid[b].theta) * rigid[b].attitude_start;
       }
   }
 

@@ -2,6 +2,7 @@
 #include <kedge/base/expression.h>
 #include <kedge/base/nearest_name.h>
 #include <kedge/scene/contact_section.h>
+#include <kedge/scene/cross_checks.h>
 #include <kedge/scene/values.h>
 
 #include <algorithm>
@@ -125,6 +126,23 @@ namespace kedge
       read_shear_limit(section, contact);
     }
 
+    /** A rigid body, if the section has one. */
+    void
+    read_tool(const ParameterReader &reader,
+              const SectionReader   &section,
+              ContactParameters     &contact)
+    {
+      if (section.is_empty("Tool"))
+        return;
+      contact.tool = find_name(reader, section, "Tool", "Rigid bodies");
+      for (const char *entry : {"Second", "Wall", "Wall point", "Wall normal", "Wall displacement"})
+        if (!section.is_empty(entry))
+          throw section.error(entry, "A Tool stands in place of the second group. Leave one out.");
+      if (is_nodal(contact.method) || section.text("Method") == "none")
+        throw section.error("Method", "A tool is touched by surface points. Leave Method out.");
+      contact.method = ContactMethod::surface_points;
+    }
+
     /** A rigid plane, if the section has one. */
     template <int dim>
     void
@@ -136,7 +154,8 @@ namespace kedge
       if (!contact.has_wall)
         {
           if (section.is_empty("Second"))
-            throw section.error("Second", "Name the bodies of the second group, or give a Wall.");
+            throw section.error("Second",
+                                "Name the bodies of the second group, or give a Wall or a Tool.");
           for (const char *entry : {"Wall point", "Wall displacement"})
             if (!section.is_empty(entry))
               throw section.error(entry, "There is no Wall, and no Wall normal.");
@@ -174,6 +193,11 @@ namespace kedge
     wall_entries(const ValuePatterns<dim> &allow)
     {
       return {
+        {"Tool",
+         "",
+         allow.text("the name of a section of Rigid bodies").or_empty(),
+         "In place of Second: a rigid body with a Geometry, which the bodies of First may touch, "
+         "slide along and leave."},
         {"Wall",
          "",
          allow.side().or_empty(),
@@ -269,7 +293,9 @@ namespace kedge
         if (!section.is_empty("Second"))
           contact.second = read_group(reader, section, "Second");
         read_law(section, contact);
-        read_wall<dim>(section, contact);
+        read_tool(reader, section, contact);
+        if (!contact.tool)
+          read_wall<dim>(section, contact);
         for (const std::string &body : contact.second)
           if (holds(contact.first, body))
             throw section.error("Second",

@@ -4,6 +4,7 @@
 #include <kedge/contact/contact_velocity_term.h>
 #include <kedge/contact/nodal_law_term.h>
 #include <kedge/contact/ray_contact_term.h>
+#include <kedge/contact/tool_term.h>
 #include <kedge/contact/wall_term.h>
 #include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
@@ -19,6 +20,8 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+
+#include "wall_plane.h"
 
 namespace kedge
 {
@@ -270,23 +273,6 @@ namespace kedge
     }
 
     template <int dim>
-    WallPlane<dim>
-    plane_of(const ContactParameters &contact, const Lattice<dim> &lattice)
-    {
-      WallPlane<dim> plane;
-      for (int d = 0; d < dim; ++d)
-        plane.point[d] =
-          contact.wall_side % 2 == 1 ? lattice.upper(d) : lattice.origin[d]; // a corner of the side
-      plane.normal[contact.wall_side / 2] = contact.wall_side % 2 == 1 ? -1. : 1.;
-      for (std::size_t d = 0; d < contact.wall_point.size(); ++d)
-        plane.point[d] = contact.wall_point[d];
-      for (std::size_t d = 0; d < contact.wall_normal.size(); ++d)
-        plane.normal[d] = contact.wall_normal[d];
-      plane.normal /= plane.normal.norm();
-      return plane;
-    }
-
-    template <int dim>
     WallMotion<dim>
     wall_motion_of(const ContactParameters             &contact,
                    const std::map<std::string, double> &constants,
@@ -387,11 +373,22 @@ namespace kedge
     for (const ContactParameters &contact : scene.contacts)
       if (with_law(contact))
         {
-          if (contact.has_wall)
+          if (contact.has_wall || contact.tool)
             {
               std::vector<WallBody<dim>> touching;
               for (const std::string &first : contact.first)
                 touching.push_back(wall_body_of(*surfaces.at(first), scene, bodies, contact, h));
+              if (contact.tool)
+                {
+                  add_term(std::make_unique<ToolTerm<dim>>(contact,
+                                                           touching,
+                                                           *rigid_bodies,
+                                                           *contact.tool,
+                                                           scene.constants,
+                                                           scheme,
+                                                           h));
+                  continue;
+                }
               add_term(std::make_unique<WallTerm<dim>>(
                 contact,
                 plane_of(contact, points.grid().lattice()),

@@ -1,6 +1,7 @@
 #ifndef kedge_contact_parameters_h
 #define kedge_contact_parameters_h
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ namespace kedge
     std::string              shear_limit;         ///< of shear_limit_variables() [Pa]; empty: none
     double                   penalty_factor = 2.; ///< beta of eps = beta M / h, or of (5.105) [-]
     double                   spacing        = 0.; ///< of the surfaces' points [m]; 0: h/5
+
+    /** A section of Rigid bodies in place of the second group, by number. */
+    std::optional<unsigned int> tool;
 
     /** A rigid plane in place of the second group: parallel to a side of the grid, or with a
      * normal. */

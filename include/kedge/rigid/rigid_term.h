@@ -102,6 +102,8 @@ namespace kedge
     Vector3
     end_rate(const RigidBody &body) const;
     void
+    predict(RigidBody &body) const;
+    void
     take_off_residual(RigidBody &body) const;
     void
     book_momenta(Ledger &ledger) const;

@@ -1,0 +1,137 @@
+#ifndef kedge_contact_tool_term_h
+#define kedge_contact_tool_term_h
+
+#include <kedge/contact/contact_picture.h>
+#include <kedge/contact/tool_samples.h>
+#include <kedge/equations/term.h>
+
+namespace kedge
+{
+  /**
+   * Contact of bodies with a rigid body, the tool: the middles of their surfaces' facets are
+   * samples, R -= sum of A B^T (p n + t),   D = B x, with D the displacement of a sample less that
+   * of its partner on the tool, which is of the nodes and of the tool's unknowns; the tool bears
+   * the opposite forces, and what they do is in the books to round-off (RigidBodies). Directions
+   * follow the first corrections of Newton's method, are then held fixed, and taken anew once the
+   * equations are solved, until the forces change no more than a little; at rest pressures are
+   * found by Uzawa's iteration, both as in ContactTerm.
+   */
+  template <int dim>
+  class ToolTerm
+    : public Term<dim>
+    , public ShownContact<dim>
+  {
+  public:
+    /** As of ContactTerm: in parts of a cell. */
+    static constexpr double reach = 1., largest_overlap = 0.5, smallest_gap = 1e-3,
+                            nearly_closed = 0.05;
+
+    static constexpr unsigned int most_follows = 2, most_passes = 3, most_updates = 40;
+
+    /** A change of the forces by less than this part of them is let be. */
+    static constexpr double small_change = 1e-3;
+
+    /**
+     * @param touching  bodies whose surfaces may meet the tool
+     * @param rigid     must last as long as this
+     * @param tool      its number among the rigid bodies
+     * @param constants of the scene's expressions
+     * @throws UserError for a tool without a shape
+     */
+    ToolTerm(const ContactParameters             &parameters,
+             const std::vector<WallBody<dim>>    &touching,
+             RigidBodies<dim>                    &rigid,
+             const unsigned int                   tool,
+             const std::map<std::string, double> &constants,
+             const Scheme                        &scheme,
+             const double                         cell_size);
+
+    std::string
+    name() const override
+    {
+      return "contact '" + parameters.name + "'";
+    }
+
+    void
+    declare_books(Ledger &ledger) override;
+
+    /** @throws UserError for bodies that the tool stands in */
+    void
+    attach(std::vector<GeneratedPoint<dim>> &points) override;
+
+    void
+    activate(const MaterialPoints<dim> &points) override;
+
+    void
+    start(Trial<dim> &trial) override;
+
+    Answer
+    add_residual(const Trial<dim> &trial, Residual<dim> &residual) override;
+
+    void
+    add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent) override;
+
+    bool
+    refresh(const Trial<dim> &trial) override;
+
+    Answer
+    finish(const Trial<dim> &trial) override;
+
+    void
+    book(const Trial<dim> &trial, const Residual<dim> &residual, Ledger &ledger) const override;
+
+    void
+    commit(const Trial<dim> &trial, MaterialPoints<dim> &cloud) override;
+
+    void
+    book_state(const MaterialPoints<dim> &cloud, Ledger &ledger) const override;
+
+    void
+    save(SavedState &state) const override;
+
+    void
+    restore(const SavedState &state) override;
+
+    void
+    show(ContactPicture<dim> &picture) const override;
+
+  private:
+    using Sample = typename ToolSamples<dim>::Sample;
+
+    void
+    move(const Trial<dim> &trial);
+    bool
+    presses() const;
+    std::vector<std::vector<dealii::Tensor<1, dim>>>
+    forces() const;
+    bool
+    directions_have_changed();
+    bool
+    update_multipliers();
+    void
+    add_sample(const ToolSamples<dim>     &side,
+               const Sample               &sample,
+               const ContactResponse<dim> &response,
+               const bool                  to_be_held,
+               Tangent<dim>               &tangent) const;
+    Answer
+    finish(ToolSamples<dim> &side, const double dt);
+    ContactPlace<dim>
+    place_of(const ToolSamples<dim> &side, const Sample &sample, const double dt) const;
+
+    const ContactParameters                 parameters;
+    RigidBodies<dim>                       &rigid;
+    const unsigned int                      tool;
+    const double                            cell_size;
+    const bool                              at_rest;
+    ShearLimit<dim>                         shear_limit;
+    std::unique_ptr<const FacetSearch<dim>> search;          ///< in the tool's axes
+    std::vector<ToolSamples<dim>>           sides;           ///< one per body
+    std::vector<ContactPlace<dim>> places, committed_places; ///< of the attempt, of the last step
+    double            released = 0.; ///< energy of samples that no longer look here [J]
+    unsigned int      n_passes = 0, n_updates = 0, n_tangents = 0, n_follows = 0;
+    ContactBooks<dim> books;
+  };
+} // namespace kedge
+
+#endif
