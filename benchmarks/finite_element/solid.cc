@@ -203,7 +203,6 @@ namespace finite_element
           point.gradient_n[A] = to_present * point.gradient[A];
         point.stress_state = kedge::make_stress_state<dim>(point.state.elastic_frame,
                                                            point.state.out_of_plane_elastic_stretch,
-                                                           point.state.deformation_gradient,
                                                            point.state.kirchhoff_stress);
       }
   }
