@@ -30,10 +30,10 @@ namespace
     Counted                   A[dim][dim];
     for (int i = 0; i < dim; ++i)
       {
-        state.elastic_frame[i][i]  = 1.02 + 0.01 * i;
-        state.squared_stretch[i]   = std::pow(1.02 + 0.01 * i, 2);
-        state.strain[i]            = std::log(1.02 + 0.01 * i);
-        state.left_cauchy_green[i] = std::pow(1.02 + 0.01 * i, 2);
+        state.elastic_frame[i][i]          = 1.02 + 0.01 * i;
+        state.squared_stretch[i]           = std::pow(1.02 + 0.01 * i, 2);
+        state.strain[i]                    = std::log(1.02 + 0.01 * i);
+        state.elastic_left_cauchy_green[i] = std::pow(1.02 + 0.01 * i, 2);
         for (int j = 0; j < dim; ++j)
           A[i][j] = 0.01 * (1 + i + 2 * j);
       }

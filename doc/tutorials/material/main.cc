@@ -56,7 +56,7 @@ namespace
     {
       double                A[3][3] = {{0., increment, 0.}, {0., 0., 0.}, {0., 0., 0.}};
       kedge::PointUpdate<3> update;
-      const auto            state = kedge::make_stress_state<3>(frame, 1., F, stress);
+      const auto            state = kedge::make_stress_state<3>(frame, 1., stress);
       if (!kedge::update_point<3>(law, state, {}, A, update))
         return false;
       for (int i = 0; i < 3; ++i)
