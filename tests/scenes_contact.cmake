@@ -43,6 +43,9 @@ kedge_add_scene_test(scene.bar_on_wall.moving_wall prm/bar_on_wall.prm
   SET "Constants/wall = 0.05")
 # facets that are stretched fourfold and drawn together to a quarter while they touch
 kedge_add_scene_test(scene.flattened_block prm/flattened_block.prm)
+kedge_add_scene_test(refusal.wall_displacement.not_finite prm/bar_on_wall.prm
+  SET "Contact/wall/Wall displacement = log(t - 1); 0" EXPECT_EXIT 1
+  EXPECT_STDERR "Wall displacement has no finite value at the start")
 kedge_add_scene_test(scene.flattened_block.ranks prm/flattened_block.prm RANKS 2)
 kedge_add_restart_test(scene.restart.flattened_block prm/flattened_block.prm KILLS 2
   SET "Output/Checkpoint every steps = 5")

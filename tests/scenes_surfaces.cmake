@@ -56,6 +56,11 @@ kedge_add_scene_test(scene.cylinder_wall_moved.ranks prm/cylinder_wall_moved.prm
   SET "Constants/n = 8" RANKS 2)
 # nodes that are held for a time
 kedge_add_scene_test(scene.released tests/scenes/released.prm)
+# the sum of thirty steps is not 0.5 in round-off; what is no number holds nothing
+kedge_add_scene_test(scene.released.short_steps tests/scenes/released.prm
+  SET "Time/Step = 1/30" "Node conditions/hand/Where = t < t_0" "Checks/weight in the hand/Time = 0.3")
+kedge_add_scene_test(scene.released.not_a_number tests/scenes/released.prm
+  SET "Node conditions/hand/Where = sqrt(t_0 - 1e-6 - t)")
 kedge_add_restart_test(scene.restart.pressed_by_condition prm/pressed_by_condition.prm KILLS 3
   SET "Output/Checkpoint every steps = 5" "Output/Points interval = 0")
 kedge_add_scene_test(scene.lost_support tests/scenes/lost_support.prm EXPECT_EXIT 2

@@ -12,10 +12,13 @@ namespace kedge
                                   const dealii::Tensor<1, dim> &displacement,
                                   const double                  dt)
   {
-    force     = (on_first ? area : -area) * response.traction;
-    pressure  = response.pressure;
+    // the law is per area at the start of the run; what is shown is per present area
+    const double stretch = surface->stretch(facet);
+    force                = (on_first ? area : -area) * response.traction;
+    friction             = area * response.dissipation;
+    pressure             = response.pressure / stretch;
+    area *= stretch;
     gap       = response.gap_end;
-    friction  = area * response.dissipation;
     slip_rate = (displacement - (displacement * normal) * normal) / dt;
     sticks    = response.sticks;
   }

@@ -112,7 +112,8 @@ namespace kedge
         sample.area  = share * sampled.surface.reference_area(f);
         if (!set_start(sample))
           continue;
-        sample.shear_limit = shear_limit_at(sample);
+        sample.stretch     = sampled.surface.stretch(f);
+        sample.shear_limit = sample.stretch * shear_limit_at(sample);
         if (law.conserving)
           tilt_to_end(search_end, sample);
         samples_.push_back(sample);

@@ -137,7 +137,8 @@ namespace kedge
         sample.normal      = in_scene<dim>(attitude * in_space<dim>(partner.normal));
         sample.gap_slope   = sample.normal;
         sample.area        = body.surface->reference_area(f);
-        sample.shear_limit = limit(sample.place, strength_at(f));
+        sample.stretch     = body.surface->stretch(f);
+        sample.shear_limit = sample.stretch * limit(sample.place, strength_at(f));
         if (!set_start(sample))
           continue;
         if (law.conserving)
@@ -263,6 +264,7 @@ namespace kedge
         pore_pressure += pore_pressures[v] / dim;
     ContactLaw here  = law;
     here.shear_limit = sample.shear_limit;
+    here.adhesion *= sample.stretch;
     return contact_response(here,
                             sample.normal,
                             sample.gap_slope,

@@ -4,6 +4,7 @@
 #include <kedge/contact/wall_term.h>
 #include <kedge/equations/external_work.h>
 
+#include <cmath>
 #include <sstream>
 
 namespace kedge
@@ -57,6 +58,9 @@ namespace kedge
   WallTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
   {
     plane = plane_at(0.);
+    if (!std::isfinite(plane.point.norm()))
+      throw UserError("Contact/" + parameters.name +
+                      "/Wall displacement has no finite value at the start.");
     for (const Side &side : sides)
       shear_limit.count_from(*side.surface);
     for (const Side &side : sides)
@@ -110,7 +114,8 @@ namespace kedge
             for (const unsigned int v : side.surface->mesh().facets[f])
               strength += side.strengths[v] / dim;
           }
-        sample.shear_limit = shear_limit(x, strength);
+        sample.stretch     = side.surface->stretch(f);
+        sample.shear_limit = sample.stretch * shear_limit(x, strength);
         side.samples.push_back(sample);
       }
   }
@@ -182,6 +187,7 @@ namespace kedge
         pore_pressure += side.pore_pressures[v] / dim;
     ContactLaw law  = side.law;
     law.shear_limit = sample.shear_limit;
+    law.adhesion *= sample.stretch;
     return contact_response(law,
                             plane.normal,
                             plane.normal,
@@ -211,6 +217,10 @@ namespace kedge
   Answer
   WallTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
   {
+    if (!std::isfinite(moves_by.norm()) || !std::isfinite(plane.point.norm()))
+      return Answer::failure("Contact/" + parameters.name +
+                             "/Wall displacement has no finite value at t = " +
+                             std::to_string(trial.times.t_n) + " s or at the end of the step");
     move(trial);
     for (const Side &side : sides)
       for (const Sample &sample : side.samples)
@@ -285,6 +295,8 @@ namespace kedge
                       << "' would come behind the wall by " << overlap << " m at (" << sample.place
                       << "), more than half a cell; stiffen the contact (Contact/"
                       << parameters.name << "/Penalty factor) or refine the grid";
+                if (moves_by != dealii::Tensor<1, dim>())
+                  cause << "; the wall itself moves by " << moves_by.norm() << " m in the step";
                 return Answer::failure(cause.str());
               }
             const Closed after{end.gap_end, sample.start.multiplier, end.slip_end};

@@ -67,7 +67,7 @@ namespace kedge
     double     v[4] = {0, 0, 0, time};
     for (int d = 0; d < dim; ++d)
       v[d] = x[d];
-    return (*condition.where)(v) != 0.;
+    return is_true((*condition.where)(v));
   }
 
 
@@ -77,7 +77,7 @@ namespace kedge
   NodeConditions<dim>::set_time(const double t)
   {
     const double before = time;
-    time                = program.time(t);
+    time                = just_after(program.time(t));
     return follows_time_ && time != before;
   }
 

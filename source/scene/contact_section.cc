@@ -215,7 +215,7 @@ namespace kedge
         {"Wall displacement",
          "",
          allow.expressions({"t"}, "t").or_empty(),
-         "How far the wall has moved since the start [m]: it pushes but does not pull. Empty: it "
+         "How far the wall is from where it is given at time t [m]: it pushes but does not pull. Empty: it "
          "stands still."}};
     }
   } // namespace

@@ -157,7 +157,7 @@ namespace kedge
             "",
             allow.expression(variables, coordinate_words("xyz") + ", t").or_empty(),
             "All nodes where this is true, for example abs(x) < 1e-6 && y > 2; t is the time at "
-            "which a step starts."},
+            "which a step starts, and just after it."},
            {"Body",
             "",
             allow.text("the name of a section of Bodies").or_empty(),

@@ -48,7 +48,7 @@ namespace kedge
             idle += (idle.empty() ? "" : ", ") + title(conditions[i]);
           if (i < most_lines)
             out << "  " << title(conditions[i]) << ": "
-                << (n_held[i] == 0 ? "no node of a cell with material points"
+                << (n_held[i] == 0 ? "no node of a cell with material points at the start"
                                    : std::to_string(n_held[i]) + " nodes")
                 << "\n";
         }

@@ -23,14 +23,15 @@ namespace kedge
     bool                    on_first = true; ///< whether the facet is one of the first bodies
     dealii::Point<dim>      at;            ///< where the force acts, in the balance's configuration
     dealii::Tensor<1, dim>  force;         ///< on the first body [N]
-    double                  area     = 0.; ///< that it stands for
+    double                  area     = 0.; ///< that it stands for; of the start, then of now
     double                  pressure = 0.; ///< [Pa]
     double                  gap      = 0.; ///< at the end of the step [m]
     double                  friction = 0.; ///< energy dissipated in the step [J]
     dealii::Tensor<1, dim>  slip_rate;     ///< along the surface, of the facet [m/s]
     bool                    sticks = false;
 
-    /** Takes what the law has answered to a relative displacement of the facet in a step. */
+    /** Takes what the law has answered to a relative displacement of the facet in a step, per area
+     * at the start of the run; goes over to the present area. */
     void
     set_response(const ContactResponse<dim>   &response,
                  const dealii::Tensor<1, dim> &normal,

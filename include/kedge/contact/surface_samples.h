@@ -62,7 +62,8 @@ namespace kedge
       dealii::Tensor<1, dim>             slip_n;      ///< e_0 [m]
       double                             multiplier;  ///< [Pa]
       double                             area;        ///< that it stands for [m^2; m in 2D]
-      double                             shear_limit; ///< there [Pa]
+      double                             shear_limit; ///< there, per area at the start [Pa]
+      double                             stretch;     ///< of its area since the start
     };
 
     /** What is committed of a sample that is closed, or that cannot yet be measured as open. */
@@ -187,6 +188,7 @@ namespace kedge
     {
       ContactLaw here  = law;
       here.shear_limit = sample.shear_limit;
+      here.adhesion *= sample.stretch; // the law is per area at the start
       return contact_response(here,
                               sample.partner.normal,
                               sample.gap_slope,

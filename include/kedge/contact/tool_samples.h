@@ -55,7 +55,8 @@ namespace kedge
       double                 multiplier = 0.; ///< [Pa]
       dealii::Tensor<1, dim> slip;            ///< e_0 [m]
       double                 area;
-      double                 shear_limit; ///< there [Pa]
+      double                 shear_limit; ///< there, per area at the start of the run [Pa]
+      double                 stretch;     ///< of its area since then
     };
 
     /** What a sample carries from step to step while it is closed. */

@@ -150,7 +150,8 @@ namespace kedge
       dealii::Point<dim> place; ///< at the start of the step
       Closed             start;
       double             area;             ///< at the start of the run
-      double             shear_limit = 0.; ///< there [Pa]
+      double             shear_limit = 0.; ///< there, per area at the start of the run [Pa]
+      double             stretch     = 1.; ///< of its area since then
     };
 
     struct Side

@@ -4,6 +4,8 @@
 #include <kedge/base/expression.h>
 #include <kedge/grid/lattice.h>
 
+#include <cmath>
+
 namespace kedge
 {
   /** Whether a Where of x, y, z and t depends on the time t. */
@@ -13,6 +15,21 @@ namespace kedge
     for (const char *coordinate : {"x", "y", "z"})
       constants[coordinate] = 0.;
     return !Expression(where, {"t"}, constants).is_constant();
+  }
+
+  /** Whether the value of a Where says yes: what is no number does not. */
+  inline bool
+  is_true(const double value)
+  {
+    return value != 0. && !std::isnan(value);
+  }
+
+  /** The time at which a Where is asked for the step that starts at @p t [s]: the time of a step is
+   * a sum, whose round-off must not decide. */
+  inline double
+  just_after(const double t)
+  {
+    return t + 1e-9 * std::abs(t);
   }
 
   /** The nodes of the grid that a node condition holds: those on a side, or where its Where is
@@ -52,7 +69,7 @@ namespace kedge
       double values[4] = {0, 0, 0, 0};
       for (int d = 0; d < dim; ++d)
         values[d] = x[d];
-      return where(values) != 0.;
+      return is_true(where(values));
     }
 
     bool

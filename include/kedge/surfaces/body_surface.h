@@ -104,6 +104,13 @@ namespace kedge
       return committed.reference_areas[facet];
     }
 
+    /** Area of a facet now over that at the start of the run. */
+    double
+    stretch(const unsigned int facet) const
+    {
+      return area_vector<dim>(mesh().corners(facet)).norm() / reference_area(facet);
+    }
+
     /** How often its facets have changed, other than by moving. */
     unsigned int
     generation() const
