@@ -35,6 +35,40 @@ namespace kedge
     return mean;
   }
 
+  /** The same where the partner is a facet too, and the normal that of the place. */
+  template <int dim>
+  struct PartneredContact : ClosedContact<dim>
+  {
+    unsigned int           partner = 0; ///< facet
+    dealii::Tensor<1, dim> normal;
+  };
+
+  /** What the facets of a surface carry, by facet. */
+  template <int dim>
+  using ContactMemory = std::map<unsigned int, PartneredContact<dim>>;
+
+  /**
+   * Hands what facets carry on to those that a step has divided or united, each with the partner
+   * and the normal of the largest part.
+   *
+   * @param facets, partners of the surface and of the one that it meets
+   */
+  template <int dim>
+  ContactMemory<dim>
+  handed_on(ContactMemory<dim> &&of_step,
+            const FacetHeritage &facets,
+            const FacetHeritage &partners = FacetHeritage());
+
+  /** What a checkpoint keeps of it. */
+  template <int dim>
+  std::vector<double>
+  saved(const ContactMemory<dim> &memory);
+
+  /** Takes it back. @param to_gaps turns multipliers into gaps that press as hard */
+  template <int dim>
+  ContactMemory<dim>
+  restored(const std::vector<double> &saved, const ContactLaw &law, const bool to_gaps);
+
   /** Energy that facets of a surface store, by facet [J; J/m in 2D].
    *
    * @param area of a facet at the start of the run */

@@ -67,11 +67,7 @@ namespace kedge
     };
 
     /** What is committed of a sample that is closed, or that cannot yet be measured as open. */
-    struct Memory : ClosedContact<dim>
-    {
-      unsigned int           partner = 0; ///< facet
-      dealii::Tensor<1, dim> normal;
-    };
+    using Memory = PartneredContact<dim>;
 
     /** What Uzawa's iteration has found for a sample at rest: what presses it, and the slip that
      * holds it, as if it stretched a spring of the law's stiffness. */
@@ -248,7 +244,12 @@ namespace kedge
 
     /** Hands it on to the facets that the step leads to. */
     std::map<unsigned int, Memory>
-    handed_on(std::map<unsigned int, Memory> &&of_step) const;
+    handed_on(std::map<unsigned int, Memory> &&of_step) const
+    {
+      return kedge::handed_on<dim>(std::move(of_step),
+                                   sampled.surface.heritage(),
+                                   other.surface.heritage());
+    }
 
     /** Energy that samples store after the step, by what those facets remember [J]. */
     double
@@ -264,11 +265,17 @@ namespace kedge
     }
 
     std::vector<double>
-    save() const;
+    save() const
+    {
+      return saved<dim>(memory);
+    }
 
     /** @param to_gaps turns multipliers into gaps that press as hard */
     void
-    restore(const std::vector<double> &saved, const bool to_gaps);
+    restore(const std::vector<double> &saved, const bool to_gaps)
+    {
+      memory = restored<dim>(saved, law, to_gaps);
+    }
 
     const MovingSurface<dim> &sampled, &other;
     const ContactLaw          law;

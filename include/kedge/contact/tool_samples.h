@@ -60,11 +60,7 @@ namespace kedge
     };
 
     /** What a sample carries from step to step while it is closed. */
-    struct Closed : ClosedContact<dim>
-    {
-      unsigned int           partner = 0; ///< facet of the tool
-      dealii::Tensor<1, dim> normal;
-    };
+    using Closed = PartneredContact<dim>;          // the partner is a facet of the tool
     using Memory = std::map<unsigned int, Closed>; ///< by facet of the surface
 
     /**
@@ -141,14 +137,23 @@ namespace kedge
 
     /** What is remembered of a step, on the facets that it leads to. */
     Memory
-    handed_on(Memory &&of_step) const;
+    handed_on(Memory &&of_step) const
+    {
+      return kedge::handed_on<dim>(std::move(of_step), body.surface->heritage());
+    }
 
     /** Multipliers that stand for states of rest become gaps that press as hard. */
     void
-    restore(const std::vector<double> &saved, const bool to_gaps);
+    restore(const std::vector<double> &saved, const bool to_gaps)
+    {
+      memory = restored<dim>(saved, law, to_gaps);
+    }
 
     std::vector<double>
-    save() const;
+    save() const
+    {
+      return saved<dim>(memory);
+    }
 
     const WallBody<dim> body;
     const ContactLaw    law;

@@ -1,0 +1,92 @@
+#include <kedge/contact/closed_contact.h>
+
+#include <algorithm>
+
+namespace kedge
+{
+  template <int dim>
+  ContactMemory<dim>
+  handed_on(ContactMemory<dim> &&of_step,
+            const FacetHeritage &facets,
+            const FacetHeritage &partners)
+  {
+    if (!partners.empty())
+      for (auto &[facet, last] : of_step)
+        last.partner = partners.heirs[last.partner];
+    if (facets.empty())
+      return std::move(of_step);
+    return facets.hand_on(of_step, [](const auto &parts) {
+      const auto largest =
+        std::max_element(parts.begin(), parts.end(), [](const auto &a, const auto &b) {
+          return a.second < b.second;
+        });
+      PartneredContact<dim> result{mean_of_parts<dim>(parts),
+                                   largest->first->partner,
+                                   largest->first->normal};
+      // slips are across the normal that is kept
+      result.slip = dealii::Tensor<1, dim>();
+      for (const auto &[part, share] : parts)
+        result.slip += share * turned(part->slip, part->normal, result.normal);
+      return result;
+    });
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  saved(const ContactMemory<dim> &memory)
+  {
+    std::vector<double> result;
+    for (const auto &[facet, last] : memory)
+      {
+        result.insert(result.end(),
+                      {double(facet), double(last.partner), last.gap, last.multiplier});
+        result.insert(result.end(), last.slip.begin_raw(), last.slip.end_raw());
+        result.insert(result.end(), last.normal.begin_raw(), last.normal.end_raw());
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  ContactMemory<dim>
+  restored(const std::vector<double> &saved, const ContactLaw &law, const bool to_gaps)
+  {
+    constexpr std::size_t width = 4 + 2 * dim;
+    AssertThrow(saved.size() % width == 0, dealii::ExcInternalError());
+    ContactMemory<dim> memory;
+    for (auto next = saved.begin(); next != saved.end(); next += width)
+      {
+        PartneredContact<dim> last;
+        last.partner    = static_cast<unsigned int>(next[1]);
+        last.gap        = next[2];
+        last.multiplier = next[3];
+        for (int d = 0; d < dim; ++d)
+          {
+            last.slip[d]   = next[4 + d];
+            last.normal[d] = next[4 + dim + d];
+          }
+        if (to_gaps)
+          {
+            last.gap -= last.multiplier / law.normal_stiffness;
+            last.multiplier = 0.;
+          }
+        memory.emplace(static_cast<unsigned int>(next[0]), last);
+      }
+    return memory;
+  }
+
+#define KEDGE_INSTANTIATE(dim)                                            \
+  template ContactMemory<dim>  handed_on(ContactMemory<dim> &&,           \
+                                         const FacetHeritage &,           \
+                                         const FacetHeritage &);          \
+  template std::vector<double> saved(const ContactMemory<dim> &);         \
+  template ContactMemory<dim>  restored<dim>(const std::vector<double> &, \
+                                            const ContactLaw &,          \
+                                            const bool);
+  KEDGE_INSTANTIATE(2)
+  KEDGE_INSTANTIATE(3)
+#undef KEDGE_INSTANTIATE
+} // namespace kedge
