@@ -109,6 +109,8 @@ namespace kedge
     return again;
   }
 
+
+
   /** Uzawa's step at rest; false if no cell has a large gap and nothing that sticks creeps. */
   template <int dim>
   bool

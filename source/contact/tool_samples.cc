@@ -287,18 +287,6 @@ namespace kedge
             end.centre - end.attitude * sample.on_tool);
   }
 
-
-
-  template <int dim>
-  double
-  ToolSamples<dim>::stored(const Memory &remembered) const
-  {
-    double sum = 0.;
-    for (const auto &[facet, closed] : remembered)
-      sum += body.surface->reference_area(facet) * stored(closed);
-    return sum;
-  }
-
   template class ToolSamples<2>;
   template class ToolSamples<3>;
 } // namespace kedge

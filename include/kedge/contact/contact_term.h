@@ -121,7 +121,7 @@ namespace kedge
 
   private:
     using Forces = std::vector<dealii::Tensor<1, dim>>;
-    using Memory = std::map<unsigned int, typename SurfaceSamples<dim>::Memory>;
+    using Memory = ContactMemory<dim>;
 
     MovingSurface<dim> &
     moving(const ContactBodies<dim> &pair, const unsigned int which);

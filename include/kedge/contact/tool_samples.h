@@ -60,8 +60,8 @@ namespace kedge
     };
 
     /** What a sample carries from step to step while it is closed. */
-    using Closed = PartneredContact<dim>;          // the partner is a facet of the tool
-    using Memory = std::map<unsigned int, Closed>; ///< by facet of the surface
+    using Closed = PartneredContact<dim>; // the partner is a facet of the tool
+    using Memory = ContactMemory<dim>;
 
     /**
      * @param search in the tool's axes; it and the others must last as long as this
@@ -133,7 +133,12 @@ namespace kedge
 
     /** Energy that remembered samples store [J]. */
     double
-    stored(const Memory &remembered) const;
+    stored(const Memory &remembered) const
+    {
+      return stored_by_facets(law, remembered, [&](const unsigned int facet) {
+        return body.surface->reference_area(facet);
+      });
+    }
 
     /** What is remembered of a step, on the facets that it leads to. */
     Memory
