@@ -141,7 +141,7 @@ def compare(arg, output):
     """Demands that all books of `output` equal the reference's as text."""
     expected = Path(f"{arg.output}.reference")
     for name in ("history.csv", "probes.csv", "newton.csv", "transfer_audit.csv", "points.pvd",
-                 "surfaces.pvd"):
+                 "surfaces.pvd", "rigid_bodies.pvd"):
         if not (expected / name).exists():
             if name == "history.csv":
                 sys.exit("TEST FAILED: the run wrote no history.csv")

@@ -18,6 +18,7 @@ sys.path.insert(0, str(PROGRAM.parent))
 
 import numpy as np  # noqa: E402
 from history_picture import load_curves  # noqa: E402
+from rigid_picture import RigidShapes, outline_of  # noqa: E402
 from run_reader import Run  # noqa: E402
 from scene_reader import SceneFile, Unknown, evaluate  # noqa: E402
 from smooth_field import FilledPart, NodalAverage  # noqa: E402
@@ -233,6 +234,58 @@ def test_derived_columns():
         assert list(curve[1]) == [0, 1] and list(curve[2]) == [0, 3] # a t/4 with a = 1
 
 
+def write_box(path, low, high):
+    """The four sides of a rigid box, as a run writes facets: ascii will do."""
+    (a, b), (c, d) = low, high
+    corners = " ".join(f"{x} {y} 0" for x, y in ((a, b), (c, b), (c, d), (a, d)))
+
+    def array(name, kind, text, n=1):
+        return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{n}" format="ascii">'
+                f"{text}</DataArray>\n")
+    path.write_text(
+        '<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" byte_order="LittleEndian">\n'
+        '<UnstructuredGrid>\n<Piece NumberOfPoints="4" NumberOfCells="4">\n'
+        f'<Points>\n{array("Points", "Float64", corners, 3)}</Points>\n<Cells>\n'
+        + array("connectivity", "Int64", "0 1 1 2 2 3 3 0") + array("offsets", "Int64", "2 4 6 8")
+        + f'</Cells>\n<CellData>\n{array("body", "Int64", "0 0 0 0")}</CellData>\n'
+        "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", encoding="utf-8")
+
+
+def test_rigid_bodies():
+    """A tool is drawn with the material; alone it has pictures, a path and a load of its own."""
+    for name, n_points in (("tool", 80), ("rigid", 0)):
+        folder = OUTPUT / name
+        if n_points:
+            shutil.copytree(OUTPUT / "one", folder, ignore=shutil.ignore_patterns("pictures"))
+        else:
+            folder.mkdir()
+        (folder / "history.csv").write_text(
+            "step,time,n_points,newton_iterations,time_step,total_energy,energy_error,"
+            "linear_momentum_x,position_press_x,"
+            "position_press_y,reaction_press_y\n"
+            f"0,0,{n_points},0,0,0,0,0,5,4,0\n1,4,{n_points},2,4,3,0,0,5,3,-7\n", encoding="utf-8")
+        entries = ""
+        for number, (time, sunk) in enumerate(((0.0, 0.0), (4.0, 1.0))):
+            write_box(folder / f"box-{number}.vtu", (4, 3 - sunk), (6, 5 - sunk))
+            entries += f'<DataSet timestep="{time}" part="0" file="box-{number}.vtu"/>\n'
+        (folder / "rigid_bodies.pvd").write_text(
+            f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>\n{entries}'
+            "</Collection></VTKFile>\n", encoding="utf-8")
+        run = Run(folder)
+        shapes = RigidShapes(run, None)
+        corners, _ = shapes.at(3.9)
+        box = outline_of(corners[:, :, :2])
+        assert box.contains_point((5, 3)) and not box.contains_point((5, 4.5)) # 2 .. 4 at the end
+        # of a tool beyond the soil no more is shown than a part of the soil's size
+        assert list(shapes.limits([0.0, 4.0], np.array([4.5, 0.0]), np.array([5.5, 2.0]))[1]) == [6, 3]
+        (curve,) = [curve for curve in load_curves(run) if curve[0] == "press, y"]
+        assert list(curve[1]) == [0, 1] and list(curve[2]) == [0, 7]
+        plot(folder, "--formats", "png")
+        for picture in ("trajectories", "load-displacement",
+                        "body-pressure" if n_points else "rigid-bodies"):
+            assert (folder / f"pictures/{picture}.png").stat().st_size > 3000, picture
+
+
 def test_smooth_field():
     """A constant stays one, also where no point is; a body fills itself."""
     place = body(0)["Points"][0]
@@ -284,6 +337,7 @@ test_pictures()
 test_choices()
 test_scene_file()
 test_derived_columns()
+test_rigid_bodies()
 test_smooth_field()
 test_element_tests()
 test_bad_input()

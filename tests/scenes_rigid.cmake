@@ -15,12 +15,16 @@ endforeach()
 kedge_add_scene_test(scene.slack_line prm/slack_line.prm COMPARE_RANKS 1e-9)
 kedge_add_restart_test(scene.restart.slack_line prm/slack_line.prm KILLS 1
   SET "Constants/dt = 1e-4" "Output/Checkpoint every steps = 500")
+# where bodies are drawn is where the books have them
+kedge_add_test(scene.rigid_pictures LABELS scene
+  COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/rigid_pictures.py
+    $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/rigid_pictures)
 # contact with soil: a rigid box strikes a column
 kedge_add_scene_test(scene.box_on_column prm/box_on_column.prm)
 kedge_add_scene_test(scene.box_on_column.ranks prm/box_on_column.prm RANKS 2)
 kedge_add_scene_test(scene.box_on_column.finer prm/box_on_column.prm SET "Constants/h = 0.025")
 kedge_add_restart_test(scene.restart.box_on_column prm/box_on_column.prm KILLS 1
-  SET "Constants/h = 0.025" "Output/Checkpoint every steps = 20" "Output/Points interval = 0")
+  SET "Constants/h = 0.025" "Output/Checkpoint every steps = 20")
 kedge_add_scene_test(refusal.rigid_scheme prm/free_top.prm
   SET "Time/Scheme = newmark" EXPECT_EXIT 1
   EXPECT_STDERR "Rigid bodies: Time/Scheme must be" LABELS refusal)

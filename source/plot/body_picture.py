@@ -7,6 +7,8 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path as Outline
 
 import style
+from panels import choose, draw_triad, layout, projection
+from rigid_picture import RigidShapes
 from smooth_field import FilledPart, smoothed
 from vtu_reader import BadFile, read_points, read_pvd
 
@@ -19,17 +21,6 @@ NOT_SMOOTHED = ("body", "id", "half_lengths", "mass", "volume")
 CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=float)
 OVERLAP = 1.03 # of the drawn domains of points, so that no gap shows between them
 RASTER = 500 # pixels of the smooth field along the longer side of a panel
-
-
-def choose(series, times, n_snapshots):
-    """The entries nearest to the wanted times, or evenly spread ones; each once."""
-    have = np.array([time for time, _ in series])
-    if times:
-        chosen = [int(np.argmin(np.abs(have - time))) for time in times]
-    else:
-        wanted = np.linspace(have[0], have[-1], min(n_snapshots, len(have)))
-        chosen = [int(np.argmin(np.abs(have - time))) for time in wanted]
-    return [series[index] for index in dict.fromkeys(chosen)]
 
 
 def stretch(deformation_gradient):
@@ -114,15 +105,6 @@ def draw_smooth(axes, points, fields, norm, cmap):
     return drawn
 
 
-def projection(view):
-    """Axes of a parallel projection: right, up, and towards the viewer (z is up)."""
-    azimuth, height = np.radians(view)
-    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
-    towards = np.array([np.cos(height) * np.cos(azimuth), np.cos(height) * np.sin(azimuth),
-                        np.sin(height)])
-    return np.stack([right, np.cross(towards, right), towards], axis=1)
-
-
 def draw_solid(axes, points, values, norm, cmap, axes_of_view):
     """A body in space as squares, the nearest drawn last, darker the farther away."""
     place = points.position @ axes_of_view
@@ -136,23 +118,6 @@ def draw_solid(axes, points, values, norm, cmap, axes_of_view):
     axes.add_collection(PolyCollection(squares, facecolors=colour, edgecolors="none",
                                        antialiaseds=False, rasterized=True))
     return plt.cm.ScalarMappable(norm=norm, cmap=cmap)
-
-
-def draw_triad(axes, axes_of_view, low, high):
-    """The directions of x, y, z, and a bar that tells the scale, below the body."""
-    length = 0.12 * max(high - low)
-    corner = low + 0.6 * length
-    for direction, name in enumerate("xyz"):
-        tip = corner + length * axes_of_view[direction, :2]
-        axes.annotate("", tip, corner, arrowprops={"arrowstyle": "->", "linewidth": 1.0})
-        axes.text(*(corner + 1.25 * length * axes_of_view[direction, :2]), name, ha="center",
-                  va="center", fontsize=8)
-    bar = 10 ** np.floor(np.log10(0.4 * (high - low)[0]))
-    bar *= max(factor for factor in (1, 2, 5) if factor * bar <= 0.4 * (high - low)[0])
-    begin = np.array([high[0] - bar - 0.3 * length, low[1] + 0.3 * length])
-    axes.plot([begin[0], begin[0] + bar], [begin[1]] * 2, color="black", linewidth=2)
-    axes.text(begin[0] + bar / 2, begin[1] + 0.15 * length, f"{bar:g} m", ha="center",
-              va="bottom", fontsize=8)
 
 
 def colours(field, values, limits=None):
@@ -171,15 +136,6 @@ def colours(field, values, limits=None):
         half = 0.5 * abs(middle) if middle else 1.0
         low, high = middle - half, middle + half
     return plt.Normalize(low, high), "viridis"
-
-
-def layout(width, height, n_pictures):
-    """Rows, columns and size of the figure, whose panels have the shape of the body."""
-    ratio = np.clip(height / width, 0.15, 4.0)
-    columns = 1 if ratio < 0.3 else min(n_pictures, 3 if ratio < 1 else 5)
-    rows = -(-n_pictures // columns)
-    panel = 6.5 if columns == 1 else 9.5 / columns
-    return rows, columns, (panel * columns + 1.6, (panel * ratio + 0.75) * rows + 0.3)
 
 
 def field_of(points, field, path):
@@ -213,6 +169,7 @@ class BodyPicture:
         self.field = field_of(first, field, self.series[0][1]) if self.series else None
         self.unit = style.field_unit(self.field or "")
         self.signed = False
+        self.rigid = RigidShapes(run, self.axes_of_view if self.in_space else None)
 
     def load(self, entries):
         """The points of some times, and what they show: numbers, and smooth fields."""
@@ -235,10 +192,11 @@ class BodyPicture:
         """Where the points are on paper."""
         return (state.position @ self.axes_of_view if self.in_space else state.position)[:, :2]
 
-    def limits(self, states):
-        """The part of the plane that holds the body at all these times."""
+    def limits(self, states, times):
+        """The part of the plane that holds the body at all these times, and tools about it."""
         low = np.min([self.flat(state).min(axis=0) for state in states], axis=0)
         high = np.max([self.flat(state).max(axis=0) for state in states], axis=0)
+        low, high = self.rigid.limits(times, low, high)
         margin = 0.04 * max(high - low) + np.max(spacing(states[0]))
         if self.in_space:
             return low - [margin, 3 * margin], high + margin
@@ -278,7 +236,8 @@ class BodyPicture:
                 fill(panel, mine, lambda place: np.zeros(len(place)), cmap=ListedColormap([colour]))
 
     def finish_panel(self, panel, time, low, high):
-        """Limits, axes and the time."""
+        """Rigid bodies, limits, axes and the time."""
+        self.rigid.draw(panel, time, opaque=False)
         panel.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal",
                   title=f"t = {style.time_text(time, self.options.time_unit)}")
         panel.grid(False)
@@ -311,7 +270,7 @@ class BodyPicture:
             return None
         entries = choose(self.series, self.options.times, self.options.snapshots)
         states, values, fields = self.load(entries)
-        low, high = self.limits(states)
+        low, high = self.limits(states, [time for time, _ in entries])
         rows, columns, size = layout(*(high - low), len(states))
         figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False)
         scaling, drawn = self.scaling(values), None

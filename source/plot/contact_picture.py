@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 import style
-from body_picture import choose, layout, projection
+from panels import choose, layout, projection
+from rigid_picture import RigidShapes
 from vtu_reader import read_pvd, read_surfaces
 
 STATES = {1: "#9a9a9a", 2: "#1f6fb4", 3: "#d1495b"} # near, sticks, slides
@@ -72,6 +73,9 @@ def draw_contact(run, options):
     factor, unit = style.handy("Pa", pressures, options.stress_unit)
     largest = max(max(values.max(initial=0.0) for values in pressures), 1e-300)
     norm = plt.Normalize(0, factor * largest)
+    rigid = RigidShapes(run, view)
+    times = [time for time, _ in entries]
+    low, high = rigid.limits(times, low, high)
     margin = (LONGEST if not in_space else 0.04) * max(high - low)
     rows, columns, size = layout(*(high - low + 2 * margin), len(states))
     figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False)
@@ -81,6 +85,7 @@ def draw_contact(run, options):
         if in_space:
             draw_triangles(panel, corners, factor * pressure, norm, view)
         else:
+            rigid.draw(panel, time)
             draw_bars(panel, corners, pressure, fields["state"][:, 0],
                       LONGEST * max(high - low) / largest)
         panel.set(xlim=(low[0] - margin, high[0] + margin), aspect="equal",

@@ -18,7 +18,7 @@ def frames(picture):
     """The frames one by one, all with the same limits and colours."""
     entries = picture.series[::max(1, -(-len(picture.series) // MOST_FRAMES))]
     states, values, fields = picture.load(entries)
-    low, high = picture.limits(states)
+    low, high = picture.limits(states, [time for time, _ in entries])
     scaling = picture.scaling(values)
     ratio = (high - low)[1] / (high - low)[0]
     for (time, _), *rest in zip(entries, states, values, fields):

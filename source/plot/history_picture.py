@@ -3,6 +3,7 @@ probes."""
 import numpy as np
 
 import style
+from rigid_picture import names_of
 
 plt = style.plt
 
@@ -157,6 +158,29 @@ class Histories:
         style.legend(panel)
         return figure
 
+    def trajectories(self):
+        """The paths of rigid bodies' centres: up over across, in space seen from the side and from
+        above; None if there are none that move."""
+        views = [("x", "z"), ("x", "y")] if self.dimension == 3 else [("x", "y")]
+        paths = [(index, name) for index, run in enumerate(self.runs) for name in names_of(run)
+                 if any(np.ptp(run.history[f"position_{name}_{axis}"]) > 0
+                        for axis in "xyz"[:self.dimension])]
+        if not paths:
+            return None
+        figure, panels = plt.subplots(len(views), 1, squeeze=False,
+                                      figsize=(8, 4.2 * len(views) + 0.6))
+        for panel, (across, up) in zip(panels[:, 0], views):
+            for number, (index, name) in enumerate(paths):
+                history = self.runs[index].history
+                panel.plot(history[f"position_{name}_{across}"], history[f"position_{name}_{up}"],
+                           style.line_style(index), color=style.colour(number, len(paths)),
+                           label=self.titled(name, index))
+            panel.set(xlabel=f"{across} [m]", ylabel=f"{up} [m]")
+            panel.set_aspect("equal", adjustable="datalim")
+        panels[0, 0].set_title("Paths of the centres")
+        style.legend(panels[0, 0])
+        return figure
+
     def probes(self):
         """One panel for each quantity; None if no probe moved or was stressed."""
         wanted = {quantity: self.probe_columns(quantity) for quantity in PROBE_QUANTITIES}
@@ -248,8 +272,38 @@ def load_curves(run):
                     curves.append((f"{name}, {direction}", np.abs(across),
                                    np.abs(run.history[column]), "Displacement of the support [m]",
                                    "Reaction"))
+    curves += tool_curves(run) + line_curves(run)
     if not curves:
         curves = loaded_probes(run)
+    return curves
+
+
+def tool_curves(run):
+    """Curves of the reactions of rigid bodies along what moves them over the way."""
+    curves = []
+    for name in names_of(run):
+        for direction in "xyz":
+            reaction = run.history.get(f"reaction_{name}_{direction}")
+            place = run.history.get(f"position_{name}_{direction}")
+            if reaction is not None and np.any(reaction) and np.ptp(place) > 0:
+                curves.append((f"{name}, {direction}", np.abs(place - place[0]), np.abs(reaction),
+                               "Displacement of the rigid body [m]", "Reaction"))
+    return curves
+
+
+def line_curves(run):
+    """Curves of the tensions of lines over the way of the bodies that they tow."""
+    curves = []
+    for line in run.scene.names("Lines"):
+        tension = run.history.get("tension_" + line.replace(" ", "_"))
+        name = run.scene.get(f"Lines/{line}/Body").replace(" ", "_")
+        if tension is None or name not in names_of(run) or not np.any(tension):
+            continue
+        places = np.stack([run.history[f"position_{name}_{axis}"] for axis in "xyz"
+                           if f"position_{name}_{axis}" in run.history], axis=1)
+        way = np.linalg.norm(places - places[0], axis=1)
+        if np.ptp(way) > 0:
+            curves.append((f"{line}", way, tension, "Way of the body at the line [m]", "Tension"))
     return curves
 
 

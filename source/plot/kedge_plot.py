@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Pictures of kedge's runs: energies and their error, momenta, reactions, loads over
 displacements, the solver's work, probes, and the body at chosen times coloured by a field;
-the pressures on surfaces in contact;
+the pressures on surfaces in contact; rigid bodies and the paths of their centres;
 of element tests of soil the curves of stress and strain, of other single points the stress over
 time."""
 import argparse
@@ -13,6 +13,7 @@ from body_picture import BodyPicture
 from contact_picture import draw_contact
 from film import write_film
 from history_picture import Histories
+from rigid_picture import draw_rigid
 from run_reader import NoRun, Run, name_apart
 from soil_picture import draw_element_tests, draw_paths, is_element_test, is_path
 from vtu_reader import BadFile
@@ -87,6 +88,7 @@ def draw_histories(arg, runs, output):
     for name, draw in (("energies", histories.energies), ("momenta", histories.momenta),
                        ("reactions", histories.reactions),
                        ("load-displacement", histories.load_displacement),
+                       ("trajectories", histories.trajectories),
                        ("solver", histories.solver), ("probes", histories.probes)):
         figure = draw()
         if figure is not None:
@@ -96,16 +98,20 @@ def draw_histories(arg, runs, output):
 def draw_bodies(arg, runs, output):
     """The body of each run in each field."""
     for run in runs:
+        which = "" if len(runs) == 1 else "-" + run.name.replace("/", "-")
+        if "n_points" in run.history and run.history["n_points"][0] == 0:
+            arg.time_unit = style.time_unit(run.history["time"][-1], arg.time_unit)
+            figure = draw_rigid(run, arg)
+            if figure is not None:
+                save(figure, output, f"rigid-bodies{which}", arg.formats)
+            continue
         if not run.points_file.exists():
             print(f"{run.folder} has no points.pvd: no picture of the body (Output/Formats = vtu, "
                   "Output/Points interval)", file=sys.stderr)
             continue
-        if "n_points" in run.history and run.history["n_points"][0] == 0: # rigid bodies alone
-            continue
         arg.time_unit = style.time_unit(run.history["time"][-1], arg.time_unit)
         for field in arg.field or [None]:
             picture = BodyPicture(run, field, arg)
-            which = "" if len(runs) == 1 else "-" + run.name.replace("/", "-")
             name = f"body-{picture.field}{which}"
             figure = picture.figure()
             if figure is not None:

@@ -46,6 +46,17 @@ namespace kedge
       return result;
     }
 
+    /** Whether there are rigid bodies that have a shape. */
+    template <int dim>
+    bool
+    has_rigid_shapes(const RigidBodies<dim> *bodies)
+    {
+      for (unsigned int b = 0; bodies != nullptr && b < bodies->size(); ++b)
+        if (!bodies->surface(b).facets.empty())
+          return true;
+      return false;
+    }
+
     /** The points that the scene's probes follow. */
     template <int dim>
     std::vector<Probe>
@@ -152,6 +163,8 @@ namespace kedge
       grid = std::make_unique<GridOutput<dim>>(folder, n_written("grid"));
     if (!shown_contacts(model.terms).empty())
       surfaces = std::make_unique<SurfaceOutput<dim>>(folder, n_written("surfaces"));
+    if (has_rigid_shapes(model.rigid()))
+      rigid = std::make_unique<RigidOutput<dim>>(folder, n_written("rigid_bodies"));
     if (scene.newton.log)
       newton = std::make_unique<NewtonLog>(folder, position("newton"));
     if (scene.transfer.audit && model.fields.front()->transfer)
@@ -256,6 +269,8 @@ namespace kedge
     points->write(clock.time(), model.points.points().records());
     write_grid(clock.time());
     write_surfaces(clock.time());
+    if (rigid)
+      rigid->write(clock.time(), *model.rigid());
   }
 
 
@@ -313,6 +328,8 @@ namespace kedge
       grid->flush();
     if (surfaces)
       surfaces->flush();
+    if (rigid)
+      rigid->flush();
     const auto put = [&](const std::string &table, const CsvPosition &end) {
       data.counters[table + "_position"] = end.n_bytes;
       data.counters[table + "_checksum"] = end.checksum.value_or(0);
@@ -321,11 +338,12 @@ namespace kedge
     put("probes", probes->position());
     put("newton", newton ? newton->position() : CsvPosition());
     put("audit", audit ? audit->position() : CsvPosition());
-    data.counters["points_written"]   = points->n_written();
-    data.counters["grid_written"]     = grid ? grid->n_written() : 0;
-    data.counters["surfaces_written"] = surfaces ? surfaces->n_written() : 0;
-    data.counters["last_points_step"] = last_step.value_or(0);
-    data.scalars["next_output_time"]  = next_time;
+    data.counters["points_written"]       = points->n_written();
+    data.counters["grid_written"]         = grid ? grid->n_written() : 0;
+    data.counters["surfaces_written"]     = surfaces ? surfaces->n_written() : 0;
+    data.counters["rigid_bodies_written"] = rigid ? rigid->n_written() : 0;
+    data.counters["last_points_step"]     = last_step.value_or(0);
+    data.scalars["next_output_time"]      = next_time;
     if (!model.scene.open_sides.empty())
       data.arrays["last_probes"] = probes->last_row();
   }

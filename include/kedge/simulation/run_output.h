@@ -9,6 +9,7 @@
 #include <kedge/io/newton_log.h>
 #include <kedge/io/points_output.h>
 #include <kedge/io/probe_writer.h>
+#include <kedge/io/rigid_output.h>
 #include <kedge/io/run_folder.h>
 #include <kedge/io/surface_output.h>
 #include <kedge/simulation/step.h>
@@ -47,8 +48,8 @@ namespace kedge
     void
     write_rejected(const std::uint64_t step, const double time, const NewtonReport &report);
 
-    /** Pictures of the points, of the grid and of surfaces in contact, if they are due or forced.
-     * Collective. */
+    /** Pictures of the points, of the grid, of surfaces in contact and of rigid bodies, if they are
+     * due or forced. Collective. */
     void
     write_points(const Clock &clock, const bool force);
 
@@ -89,6 +90,7 @@ namespace kedge
     std::unique_ptr<PointsOutput<dim>>  points;
     std::unique_ptr<GridOutput<dim>>    grid;
     std::unique_ptr<SurfaceOutput<dim>> surfaces;
+    std::unique_ptr<RigidOutput<dim>>   rigid;
     std::unique_ptr<NewtonLog>          newton;
     std::unique_ptr<AuditWriter<dim>>   audit;
     double                              next_time; ///< of pictures [s]
