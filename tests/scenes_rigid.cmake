@@ -25,6 +25,19 @@ kedge_add_scene_test(scene.box_on_column.ranks prm/box_on_column.prm RANKS 2)
 kedge_add_scene_test(scene.box_on_column.finer prm/box_on_column.prm SET "Constants/h = 0.025")
 kedge_add_restart_test(scene.restart.box_on_column prm/box_on_column.prm KILLS 1
   SET "Constants/h = 0.025" "Output/Checkpoint every steps = 20")
+# tools on elastic and plastic ground
+kedge_add_scene_test(scene.platen prm/platen.prm)
+kedge_add_scene_test(scene.platen.off_the_lines prm/platen.prm SET "Constants/shift = 0.37")
+foreach(alpha 0 1)
+  kedge_add_scene_test(scene.strip_rigid.alpha_${alpha} prm/strip_rigid.prm
+    SET "Constants/alpha = ${alpha}")
+endforeach()
+foreach(angle 0 10 20 30)
+  kedge_add_scene_test(scene.sledge.${angle} prm/sledge.prm SET "Constants/angle = ${angle}")
+endforeach()
+kedge_add_scene_test(scene.sledge.rough prm/sledge.prm SET "Constants/mu = 0.5")
+kedge_add_scene_test(scene.sphere_rolling prm/sphere_rolling.prm)
+kedge_add_scene_test(scene.sphere_rolling.slides prm/sphere_rolling.prm SET "Constants/mu = 0.1")
 kedge_add_scene_test(refusal.rigid_scheme prm/free_top.prm
   SET "Time/Scheme = newmark" EXPECT_EXIT 1
   EXPECT_STDERR "Rigid bodies: Time/Scheme must be" LABELS refusal)

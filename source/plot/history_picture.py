@@ -176,7 +176,10 @@ class Histories:
                            style.line_style(index), color=style.colour(number, len(paths)),
                            label=self.titled(name, index))
             panel.set(xlabel=f"{across} [m]", ylabel=f"{up} [m]")
-            panel.set_aspect("equal", adjustable="datalim")
+            spans = [max(np.ptp(self.runs[index].history[f"position_{name}_{axis}"])
+                         for index, name in paths) for axis in (across, up)]
+            if min(spans) > 0.1 * max(spans): # else a flat path would be a straight line
+                panel.set_aspect("equal", adjustable="datalim")
         panels[0, 0].set_title("Paths of the centres")
         style.legend(panels[0, 0])
         return figure
