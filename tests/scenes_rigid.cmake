@@ -12,6 +12,12 @@ foreach(k 1e5 1e6 1e7)
     SET "Constants/angle = 60" "Constants/k = ${k}" "Lines/rod/Stiffness = k"
       "Lines/rod/Pushes = false")
 endforeach()
+# joints hold their places and do no work
+kedge_add_scene_test(scene.double_pendulum prm/double_pendulum.prm COMPARE_RANKS 1e-9)
+kedge_add_scene_test(scene.double_pendulum.short_steps prm/double_pendulum.prm
+  SET "Constants/dt = 0.001")
+kedge_add_restart_test(scene.restart.double_pendulum prm/double_pendulum.prm KILLS 1
+  SET "Constants/dt = 2e-4" "Output/Checkpoint every steps = 500")
 kedge_add_scene_test(scene.slack_line prm/slack_line.prm COMPARE_RANKS 1e-9)
 kedge_add_restart_test(scene.restart.slack_line prm/slack_line.prm KILLS 1
   SET "Constants/dt = 1e-4" "Output/Checkpoint every steps = 500")

@@ -3,6 +3,7 @@
 #include <kedge/scene/body_section.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/declarations.h>
+#include <kedge/scene/joint_section.h>
 #include <kedge/scene/material_declarations.h>
 #include <kedge/scene/numerics_declarations.h>
 #include <kedge/scene/output_declarations.h>
@@ -35,6 +36,7 @@ namespace kedge
                                                     declare_bodies(allow),
                                                     declare_rigid_bodies(allow),
                                                     declare_lines(allow),
+                                                    declare_joints(allow),
                                                     declare_contact(allow),
                                                     node_conditions(),
                                                     declare_body_conditions(allow),

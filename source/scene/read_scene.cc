@@ -4,6 +4,7 @@
 #include <kedge/scene/body_section.h>
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/cross_checks.h>
+#include <kedge/scene/joint_section.h>
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
 #include <kedge/scene/read_geometry.h>
@@ -418,7 +419,8 @@ namespace kedge
             read_rigid_bodies<dim>(reader,
                                    scene.grid,
                                    std::filesystem::path(file.file_name).parent_path());
-          scene.lines = read_lines(reader);
+          scene.lines  = read_lines(reader);
+          scene.joints = read_joints<dim>(reader);
         });
       errors.attempt([&]() {
         scene.contacts = read_contacts<dim>(reader);

@@ -1,5 +1,6 @@
 // Which terms the rigid bodies of a scene have.
 #include <kedge/base/exceptions.h>
+#include <kedge/rigid/joint_term.h>
 #include <kedge/rigid/line_term.h>
 #include <kedge/rigid/rigid_term.h>
 #include <kedge/simulation/model.h>
@@ -25,6 +26,8 @@ namespace kedge
                                                  communicator);
     rigid_bodies                        = &term->bodies();
     terms.push_back(std::move(term));
+    if (!scene.joints.empty())
+      terms.push_back(std::make_unique<JointTerm<dim>>(scene.joints, *rigid_bodies, scheme));
     if (!scene.lines.empty())
       terms.push_back(std::make_unique<LineTerm<dim>>(scene.lines,
                                                       *rigid_bodies,

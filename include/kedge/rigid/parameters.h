@@ -49,6 +49,20 @@ namespace kedge
     std::optional<double>    stiffness;      ///< [N/m]; none: it does not stretch
     bool                     pushes = false; ///< a rod
   };
+
+  /** A section of Joints: what it lets its two bodies do against each other. */
+  struct JointParameters
+  {
+    std::string             name;
+    unsigned int            body = 0;
+    std::optional<unsigned> other;               ///< none: space
+    bool                    turns = true;        ///< a hinge; else it holds all
+    std::vector<double>     place;               ///< at the start [m]
+    std::vector<double>     axis = {0., 0., 1.}; ///< of a hinge, at the start
+    std::optional<double>   lowest, highest;     ///< angle since the start [rad]
+    double                  stop_stiffness = 0.; ///< [N m]
+    double                  friction       = 0.; ///< largest moment about the axis [N m]
+  };
 } // namespace kedge
 
 #endif

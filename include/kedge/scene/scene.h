@@ -35,6 +35,7 @@ namespace kedge
     std::vector<BodyParameters<dim>>          bodies;
     std::vector<RigidBodyParameters<dim>>     rigid_bodies;
     std::vector<LineParameters>               lines;
+    std::vector<JointParameters>              joints;
     std::vector<ContactParameters>            contacts;
     std::optional<PorousParameters>           pore_fluid; ///< saturates all bodies
     std::vector<SurfacePressureParameters>    surface_pressures;
