@@ -46,3 +46,7 @@ kedge_add_test(scene.stop_mpirun LABELS scene restart RANKS 2
 kedge_add_test(scene.stop_and_resume LABELS scene restart
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/stop_and_resume.py
     $<TARGET_FILE:kedge> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scenes/stop_and_resume)
+# the load factor found so far goes into the checkpoint
+kedge_add_restart_test(scene.restart.load_control prm/load_control.prm KILLS 1
+  SET "Constants/n = 8" "Constants/a = 2.4" "Time/Step = 0.004" "Output/Checkpoint every steps = 20"
+    "Output/Points interval = 0")

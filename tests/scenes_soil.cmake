@@ -40,6 +40,10 @@ kedge_add_scene_test(scene.vertical_cut.stops prm/vertical_cut.prm SET "Constant
   "Time/Failure displacement = " EXPECT_EXIT 2
   EXPECT_STDOUT "no equilibrium beyond load factor Body force 0.[678].*still growing"
   EXPECT_STDERR "^$")
+kedge_add_scene_test(scene.cut_softening prm/cut_softening.prm)
+# the scene can fail: clay that keeps its strength has no fall behind a peak
+kedge_add_scene_test(scene.cut_softening.perfect prm/cut_softening.prm SET "Constants/left = 1"
+  EXPECT_EXIT 2 EXPECT_STDOUT "FAIL what is left" EXPECT_STDERR "^$")
 kedge_add_scene_test(scene.slope prm/slope.prm
   SET "Constants/n = 5" "Strength reduction = 1.3")
 kedge_add_scene_test(scene.slope.fails prm/slope.prm SET "Constants/n = 5"
@@ -77,3 +81,8 @@ kedge_add_scene_test(scene.strip_su_depth prm/strip_su_depth.prm)
 kedge_add_scene_test(scene.strip_su_depth.von_mises prm/strip_su_depth.prm
   SET "Materials/clay/Model = von_mises")
 kedge_add_scene_test(scene.strip_friction prm/strip_friction.prm)
+kedge_add_scene_test(scene.strip_weight prm/strip_weight.prm)
+kedge_add_scene_test(scene.strip_weight.rough prm/strip_weight.prm
+  SET "Node conditions/footing/Component x = fixed" "Constants/q_u = 235.81e3" "Constants/w = 1e-3")
+# pore pressures of the scene's own cells are minutes: coarser, by their own tolerance
+kedge_add_scene_test(scene.set_up prm/set_up.prm SET "Constants/n = 2")

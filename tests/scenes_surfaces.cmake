@@ -31,6 +31,17 @@ kedge_add_scene_test(refusal.where_holds_nothing prm/patch_oblique.prm
   SET "Tractions/sides/Where = nx > 2" EXPECT_EXIT 1
   EXPECT_STDERR "finds no exposed face" LABELS refusal)
 kedge_add_scene_test(scene.dead_load_tension prm/dead_load_tension.prm COMPARE_RANKS 1e-7)
+# the load is found: past its largest value, in both schemes, on several processes and resumed
+kedge_add_scene_test(scene.load_control prm/load_control.prm COMPARE_RANKS 1e-6)
+kedge_add_scene_test(scene.load_control.finer prm/load_control.prm SET "Constants/n = 4")
+# (its books close; its load is that of the middle of the step)
+kedge_add_scene_test(scene.load_control.clc prm/load_control.prm
+  SET "Time/Scheme = clc-quasi-static" "Constants/a = 2.7" "Time/Step = 0.01"
+    "Checks/books/Quantity = max_abs(history.energy_error)" "Checks/books/Scale = 1e6"
+    "Checks/books/Reference = 0" "Checks/books/Tolerance = 1e-9" "Checks/books/Source = conservation")
+kedge_add_scene_test(refusal.load_control_without_load prm/load_control.prm
+  SET "Tractions/end/Traction = E_; 0" EXPECT_EXIT 2
+  EXPECT_STDOUT "no Body force, Point load or Traction changes with t" EXPECT_STDERR "^$" LABELS refusal)
 # what moves a body goes with it: uniform stress under platens through 25 cells, at any place
 # (on two ranks by the scenes' own checks: reactions of 0 are round-off, which cannot be compared)
 # (its faces are as long as the block is wide: 1.07 m)

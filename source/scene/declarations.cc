@@ -4,6 +4,7 @@
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/declarations.h>
 #include <kedge/scene/joint_section.h>
+#include <kedge/scene/load_control_section.h>
 #include <kedge/scene/material_declarations.h>
 #include <kedge/scene/numerics_declarations.h>
 #include <kedge/scene/output_declarations.h>
@@ -45,6 +46,7 @@ namespace kedge
                                                     tractions(),
                                                     surface_pressures(),
                                                     surface_fluxes(),
+                                                    declare_load_control<dim>(allow),
                                                     equilibrium(),
                                                     declare_time(allow)};
         for (SectionDeclaration &section : declare_numerics<dim>(allow))

@@ -5,6 +5,7 @@
 #include <kedge/scene/contact_section.h>
 #include <kedge/scene/cross_checks.h>
 #include <kedge/scene/joint_section.h>
+#include <kedge/scene/load_control_section.h>
 #include <kedge/scene/parameter_reader.h>
 #include <kedge/scene/read_checks.h>
 #include <kedge/scene/read_geometry.h>
@@ -356,6 +357,9 @@ namespace kedge
           });
       errors.attempt([&]() {
         read_surfaces(reader, scene);
+      });
+      errors.attempt([&]() {
+        scene.load_control = read_load_control(reader, scene);
       });
       errors.throw_if_any();
     }

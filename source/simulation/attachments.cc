@@ -288,7 +288,8 @@ namespace kedge
     describe_body_conditions(model, out);
     describe_regions(model, out);
     describe_places(model, out);
-    describe_loads(model, step, out);
+    if (!model.scene.load_control)
+      describe_loads(model, step, out);
     out << std::flush;
   }
 

@@ -109,6 +109,7 @@ namespace kedge
       bodies.names,
       motion,
       scheme));
+    load_terms.push_back(&loads);
     if (!following.empty())
       add_term(std::make_unique<FollowerTerm<dim>>(
         field,

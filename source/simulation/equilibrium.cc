@@ -36,6 +36,7 @@ namespace kedge
       stage.open_sides.clear(); // nothing may be lost before the books are opened
       stage.time.scheme       = SchemeKind::quasi_static;
       stage.equilibrium.steps = 0;
+      stage.load_control.reset(); // its loads are those of Time/Start
       return stage;
     }
 

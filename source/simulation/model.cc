@@ -32,6 +32,8 @@ namespace kedge
     for (unsigned int field = 0; field < fields.size(); ++field)
       motions.push_back(&choose_terms(field, program));
     n_field_terms = terms.size() - surface_terms.size();
+    if (scene.load_control)
+      choose_load_control();
     if (!scene.rigid_bodies.empty())
       choose_rigid_terms(program);
     choose_contact_terms(program);

@@ -11,13 +11,16 @@ namespace kedge
     const auto texts = [](const auto &components) {
       return std::vector<std::string>(components.begin(), components.end());
     };
-    add("Body force", texts(scene.body_force), scene.constants);
+    const bool follow_time = !scene.load_control; // else they follow the load factor
+    if (follow_time)
+      add("Body force", texts(scene.body_force), scene.constants);
     for (const auto &load : scene.point_loads)
-      add("Point loads/" + load.name, texts(load.force), scene.constants);
+      if (follow_time)
+        add("Point loads/" + load.name, texts(load.force), scene.constants);
     for (const auto &traction : scene.tractions)
       {
         const std::string name = "Tractions/" + traction.name;
-        if (!traction.traction[0].empty())
+        if (!traction.traction[0].empty() && follow_time)
           add(name, texts(traction.traction), scene.constants);
         if (!traction.pressure.empty())
           add(name, {traction.pressure}, scene.constants);

@@ -95,29 +95,119 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** Difference of load factors for the loads' derivative, over their size: linear loads have
+     * it to round-off, others to 1e-8. */
+    constexpr double small = 1e-4;
+  } // namespace
+
+
+
+  /** df_ext/dl, complete at the owned nodes. */
+  template <int dim>
+  std::vector<double>
+  LoadTerm<dim>::slope_at_nodes(const double l) const
+  {
+    if (empty())
+      return {};
+    const double              difference = small * std::max(1., std::abs(l));
+    std::vector<double>       slope      = at_nodes(l + difference);
+    const std::vector<double> before     = at_nodes(l - difference);
+    for (std::size_t i = 0; i < slope.size(); ++i)
+      slope[i] = (slope[i] - before[i]) / (2. * difference);
+    return slope;
+  }
+
+
+
+  template <int dim>
+  double
+  LoadTerm<dim>::square_of_slope(const double l) const
+  {
+    const std::vector<double> slope = slope_at_nodes(l);
+    double                    sum   = 0.;
+    for (std::size_t i = 0; i < patch.nodes.n_owned() * dim && !slope.empty(); ++i)
+      sum += slope[i] * slope[i];
+    return sum;
+  }
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::add_slope(const double        l,
+                           const double        s,
+                           const UnknownIndex &x,
+                           Tangent<dim>       &tangent) const
+  {
+    const std::vector<double> slope = slope_at_nodes(l);
+    for (unsigned int node = 0; node < patch.nodes.n_owned() && !slope.empty(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (const double value = slope[std::size_t(node) * dim + d]; value != 0.)
+          tangent.add({field, node, d}, x, -s * value);
+  }
+
+
+
+  /** t or l at which the balance has its loads. */
+  template <int dim>
+  double
+  LoadTerm<dim>::balance_time(const Trial<dim> &trial) const
+  {
+    return load_factor != nullptr ? load_factor->at_balance(trial)
+                                  : scheme.load_time(trial.times.t_n, trial.times.dt);
+  }
+
+
+
+  /** t or l at which they are as they work: in the middle of the step. */
+  template <int dim>
+  double
+  LoadTerm<dim>::middle_time(const Trial<dim> &trial) const
+  {
+    if (load_factor == nullptr)
+      return trial.times.t_n + 0.5 * trial.times.dt;
+    const double start = load_factor->at_start();
+    return start + 0.5 / scheme.load_time(0., 1.) * (load_factor->at_balance(trial) - start);
+  }
+
+
+
   template <int dim>
   void
   LoadTerm<dim>::start(Trial<dim> &trial)
   {
     external_force.clear();
     if (!empty())
-      external_force = at_nodes(scheme.load_time(trial.times.t_n, trial.times.dt));
+      external_force = at_nodes(balance_time(trial));
   }
 
 
 
   template <int dim>
   Answer
-  LoadTerm<dim>::add_residual(const Trial<dim> &, Residual<dim> &residual)
+  LoadTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
   {
     if (external_force.empty())
       return {};
+    if (load_factor != nullptr)
+      external_force = at_nodes(balance_time(trial));
+    add_external_force(residual);
+    return {};
+  }
+
+
+
+  template <int dim>
+  void
+  LoadTerm<dim>::add_external_force(Residual<dim> &residual) const
+  {
     std::vector<double> &sums         = residual.complete(field);
     const std::size_t    n_components = patch.n_components();
     for (std::size_t i = 0; i < patch.nodes.n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
         sums[i * n_components + d] = -external_force[i * dim + d];
-    return {};
   }
 
 
@@ -129,7 +219,7 @@ namespace kedge
     if (empty())
       return;
     external_force = at_nodes(t);
-    add_residual({}, residual);
+    add_external_force(residual);
   }
 
 
@@ -141,7 +231,7 @@ namespace kedge
     if (empty())
       return;
     double       sum    = 0.;
-    const double middle = trial.times.t_n + 0.5 * trial.times.dt;
+    const double middle = middle_time(trial);
     const auto   forces = forces_at(middle);
     for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
       sum += forces[slot] * motion.displacements()[slot];
@@ -151,7 +241,7 @@ namespace kedge
                                  surface->forces(middle),
                                  trial.displacement(field));
     ledger.book(work, sum);
-    const auto on_tractions = tractions.forces(scheme.load_time(trial.times.t_n, trial.times.dt));
+    const auto on_tractions = tractions.forces(balance_time(trial));
     for (std::size_t f = 0; f < on_tractions.size(); ++f)
       {
         const unsigned int surface = tractions.points()[f].surface;

@@ -188,6 +188,39 @@ TEST(SceneRead, ASceneNeedsABody)
   expect_parts(message_of<3>(text + "subsection Bodies\nend\n"), {"beam.prm:17: ", "has no body"});
 }
 
+// A load factor is found for dead loads alone, without inertia, and from a point of a body.
+TEST(SceneRead, LoadControlIsForDeadLoadsWithoutInertia)
+{
+  const auto message = [](std::vector<std::string> more) {
+    std::vector<std::string> settings = {"Load control/Body = beam",
+                                         "Load control/Place = 1, 0",
+                                         "Load control/Direction = 0, 1",
+                                         "Load control/Displacement = t",
+                                         "Linear solver/Method = auto",
+                                         "Time/Scheme = quasi-static"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return message_of(full_scene, settings);
+  };
+  expect_parts(message({"Time/Scheme = clc-midpoint"}),
+               {"Load control/Displacement = t", "quasi-static or clc-quasi-static"});
+  expect_parts(message({"Load control/Body = bean"}), {"Load control/Body = bean", "beam"});
+  expect_parts(message({"Load control/Body = "}), {"Load control/Place = 1, 0: It needs a Body"});
+  expect_parts(message({"Load control/Displacement = "}),
+               {"Load control/Displacement", "It must be given with a Body"});
+  expect_parts(message({"Load control/Direction = 0, 0"}),
+               {"Load control/Direction = 0, 0", "must not be zero"});
+  expect_parts(message({"Linear solver/Method = krylov-amg"}),
+               {"without a diagonal", "Linear solver/Method = auto"});
+  expect_parts(message({"Tractions/wind/Body = beam",
+                        "Tractions/wind/Side = top",
+                        "Tractions/wind/Pressure = t"}),
+               {"Tractions/wind/Pressure follows its face"});
+  expect_parts(message({"Body conditions/press/Body = beam",
+                        "Body conditions/press/Side = top",
+                        "Body conditions/press/Component y = force(t)"}),
+               {"Body conditions/press gives a force"});
+}
+
 TEST(SceneRead, GhostFactorsOfPressuresNeedAPoreFluid)
 {
   for (const char *factor : {"Ghost conductivity factor", "Ghost storage factor"})

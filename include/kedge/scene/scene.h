@@ -44,6 +44,7 @@ namespace kedge
     std::vector<PointLoadParameters<dim>>     point_loads;
     std::vector<TractionParameters<dim>>      tractions;
     std::vector<BodyConditionParameters<dim>> body_conditions;
+    std::optional<LoadControlParameters<dim>> load_control;
     TimeParameters                            time;
     EquilibriumParameters                     equilibrium;
     NewtonParameters                          newton;

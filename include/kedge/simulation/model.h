@@ -102,6 +102,8 @@ namespace kedge
     void
     choose_surface_terms();
     void
+    choose_load_control();
+    void
     choose_rigid_terms(const LoadProgram &program);
     void
     choose_contact_terms(const LoadProgram &program);
@@ -122,6 +124,7 @@ namespace kedge
     std::vector<PointOrigin<dim>>         generated;
     std::vector<std::string>              stress_notes;
     std::vector<const SurfaceTerm<dim> *> surface_terms; ///< come first
+    std::vector<LoadTerm<dim> *>          load_terms;    ///< one per field
     RigidBodies<dim> *rigid_bodies  = nullptr;           ///< of their term; none if there are none
     std::size_t       n_field_terms = 0;                 ///< of single fields; others come behind
   };

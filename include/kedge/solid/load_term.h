@@ -8,9 +8,24 @@
 
 namespace kedge
 {
+  /** The load factor l that dead loads follow where it is found and not given by the time. */
+  template <int dim>
+  class LoadFactor
+  {
+  public:
+    virtual ~LoadFactor() = default;
+    /** l of the last step, or at the start. */
+    virtual double
+    at_start() const = 0;
+    /** l of a trial, at the time of the balance. */
+    virtual double
+    at_balance(const Trial<dim> &trial) const = 0;
+  };
+
   /**
    * The external forces on the points and outer faces of a field, f_ext at the load time of the
-   * scheme. Books their work: that of their value in the middle of the step.
+   * scheme. Books their work: that of their value in the middle of the step. Where they follow
+   * a load factor l they are taken at t = l.
    */
   template <int dim>
   class LoadTerm : public Term<dim>
@@ -31,6 +46,21 @@ namespace kedge
     {
       on_faces.push_back(&forces);
     }
+
+    /** From now on the forces follow a load factor, which must last as long as this. */
+    void
+    follow(const LoadFactor<dim> &factor)
+    {
+      load_factor = &factor;
+    }
+
+    /** |df_ext/dl|^2 at the owned nodes [N^2; N^2/m^2 in 2D] (collective). */
+    double
+    square_of_slope(const double l) const;
+
+    /** Adds the column -s df_ext/dl of an unknown with l = l_n + s x (collective). */
+    void
+    add_slope(const double l, const double s, const UnknownIndex &x, Tangent<dim> &tangent) const;
 
     const ExternalLoads<dim> &
     external_loads() const
@@ -72,6 +102,14 @@ namespace kedge
     forces_at(const double t) const;
     std::vector<double>
     at_nodes(const double t) const;
+    std::vector<double>
+    slope_at_nodes(const double l) const;
+    void
+    add_external_force(Residual<dim> &residual) const;
+    double
+    balance_time(const Trial<dim> &trial) const;
+    double
+    middle_time(const Trial<dim> &trial) const;
 
     const unsigned int                     field;
     const Patch<dim>                      &patch;
@@ -82,7 +120,8 @@ namespace kedge
     const Scheme                           scheme;
     std::vector<const SurfaceLoads<dim> *> on_faces;       ///< tractions and others
     std::vector<double>                    external_force; ///< at the owned nodes [N]
-    Ledger::Index                          work = 0;
+    const LoadFactor<dim>                 *load_factor = nullptr;
+    Ledger::Index                          work        = 0;
     std::vector<Ledger::Index>             resultants; ///< dim per traction; 0 where not shown
   };
 } // namespace kedge

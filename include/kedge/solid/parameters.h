@@ -33,6 +33,16 @@ namespace kedge
     bool                         resultant = false; ///< the force is a column of the history
   };
 
+  /** Dead loads that are found from the motion of a material point. */
+  template <int dim>
+  struct LoadControlParameters
+  {
+    std::string            body;
+    dealii::Point<dim>     place;        ///< nearest to the point at the start [m]
+    dealii::Tensor<1, dim> direction;    ///< of length one
+    std::string            displacement; ///< of the point along it, expression of t [m]
+  };
+
   /** What a body condition prescribes along one direction. */
   template <int dim>
   struct PrescribedLine
