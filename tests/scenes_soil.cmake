@@ -84,5 +84,12 @@ kedge_add_scene_test(scene.strip_friction prm/strip_friction.prm)
 kedge_add_scene_test(scene.strip_weight prm/strip_weight.prm)
 kedge_add_scene_test(scene.strip_weight.rough prm/strip_weight.prm
   SET "Node conditions/footing/Component x = fixed" "Constants/q_u = 235.81e3" "Constants/w = 1e-3")
+kedge_add_scene_test(scene.circle_clay prm/circle_clay.prm)
+kedge_add_scene_test(scene.circle_clay.rough prm/circle_clay.prm
+  SET "Node conditions/footing/Component x = fixed" "Node conditions/footing/Component z = fixed"
+    "Constants/N = 6.04842")
+kedge_add_scene_test(scene.retaining_wall prm/retaining_wall.prm)
+kedge_add_scene_test(scene.retaining_wall.smooth prm/retaining_wall.prm
+  SET "Constants/delta = 0" "Constants/K_p = 3")
 # pore pressures of the scene's own cells are minutes: coarser, by their own tolerance
 kedge_add_scene_test(scene.set_up prm/set_up.prm SET "Constants/n = 2")
