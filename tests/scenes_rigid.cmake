@@ -18,6 +18,8 @@ kedge_add_scene_test(scene.double_pendulum.short_steps prm/double_pendulum.prm
   SET "Constants/dt = 0.001")
 kedge_add_restart_test(scene.restart.double_pendulum prm/double_pendulum.prm KILLS 1
   SET "Constants/dt = 2e-4" "Output/Checkpoint every steps = 500")
+kedge_add_scene_test(scene.anchor_swing prm/anchor_swing.prm)
+kedge_add_scene_test(scene.anchor_swing.long_steps prm/anchor_swing.prm SET "Constants/dt = 0.01")
 kedge_add_scene_test(scene.slack_line prm/slack_line.prm COMPARE_RANKS 1e-9)
 kedge_add_restart_test(scene.restart.slack_line prm/slack_line.prm KILLS 1
   SET "Constants/dt = 1e-4" "Output/Checkpoint every steps = 500")
@@ -38,9 +40,13 @@ foreach(alpha 0 1)
   kedge_add_scene_test(scene.strip_rigid.alpha_${alpha} prm/strip_rigid.prm
     SET "Constants/alpha = ${alpha}")
 endforeach()
+foreach(alpha 0 1)
+  kedge_add_scene_test(scene.blade.alpha_${alpha} prm/blade.prm SET "Constants/alpha = ${alpha}")
+endforeach()
 foreach(angle 0 10 20 30)
   kedge_add_scene_test(scene.sledge.${angle} prm/sledge.prm SET "Constants/angle = ${angle}")
 endforeach()
+kedge_add_scene_test(scene.anchor_tow prm/anchor_tow.prm)
 kedge_add_scene_test(scene.sledge.rough prm/sledge.prm SET "Constants/mu = 0.5")
 kedge_add_scene_test(scene.sphere_rolling prm/sphere_rolling.prm)
 kedge_add_scene_test(scene.sphere_rolling.slides prm/sphere_rolling.prm SET "Constants/mu = 0.1")

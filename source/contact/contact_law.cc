@@ -5,6 +5,15 @@
 
 namespace kedge
 {
+  double
+  tangent_ratio(const double poisson)
+  {
+    return std::min((1. - poisson) / (1. - 0.5 * poisson),
+                    1.5 * (1. - 2. * poisson) / (1. - poisson));
+  }
+
+
+
   ContactLaw
   contact_law_of(const ContactParameters &parameters,
                  const double             normal_stiffness,

@@ -3,6 +3,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace kedge
@@ -137,7 +138,9 @@ namespace kedge
     auto sum = sums.begin(), low = lowest.begin();
     for (Item &item : items)
       {
-        const double booked = is_extreme(item) ? sign_of_extreme(item) * *low++ : *sum++;
+        double booked = is_extreme(item) ? sign_of_extreme(item) * *low++ : *sum++;
+        if (is_extreme(item) && std::abs(booked) == std::numeric_limits<double>::max())
+          booked = 0.; // nobody had anything: a scene without material points
         item.value          = item.entry.kind == Kind::total ? item.value + booked : booked;
       }
   }

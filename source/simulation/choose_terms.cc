@@ -229,7 +229,7 @@ namespace kedge
       return has_undrained_strength(material) ? &material : nullptr;
     }
 
-    /** How stiff the contact of two bodies is: eps = beta M / h, eps_t by Mindlin's ratio. */
+    /** How stiff the contact of two bodies is: eps = beta M / h, and tangent_ratio(). */
     template <int dim>
     ContactBodies<dim>
     contact_of(const BodySurface<dim>  &first,
@@ -249,7 +249,7 @@ namespace kedge
       return {&first,
               &second,
               stiffness,
-              stiffness * (1. - poisson) / (1. - 0.5 * poisson),
+              stiffness * tangent_ratio(poisson),
               {{carries_water(scene, first.body), carries_water(scene, second.body)}},
               {{clay_of(bodies, first.body), clay_of(bodies, second.body)}}};
     }
@@ -268,7 +268,7 @@ namespace kedge
         2. * contact.penalty_factor * p_wave_modulus(bodies.materials[surface.body]) / cell_size;
       return {&surface,
               stiffness,
-              stiffness * (1. - poisson) / (1. - 0.5 * poisson),
+              stiffness * tangent_ratio(poisson),
               carries_water(scene, surface.body),
               clay_of(bodies, surface.body)};
     }

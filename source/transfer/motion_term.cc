@@ -192,7 +192,8 @@ namespace kedge
     ledger.book(columns.mass, mass);
     ledger.book(columns.n_points, points.size());
     ledger.book(columns.n_active_cells, points.n_cells);
-    ledger.book(columns.min_det_F, lowest);
+    if (points.size() > 0)
+      ledger.book(columns.min_det_F, lowest);
   }
 
   template class MotionTerm<2>;

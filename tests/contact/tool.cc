@@ -100,6 +100,11 @@ TEST(ToolScene, RefusesWhatIsNoTool)
   expect_parts(message_of(
                  replaced(good, "set Tool = anvil", "set Tool = anvil\n set Second = lower")),
                {"Contact/blocks/Second", "in place of the second group"});
+  // a tool in millimetres that were meant to be metres: longer than twenty grids
+  expect_parts(message_of(replaced(good,
+                                   "polygon(-0.2, 0.3; 1.7, 0.3; 1.7, 0.6; -0.2, 0.59)",
+                                   "polygon(-200, 300; 1700, 300; 1700, 600; -200, 590)")),
+               {"Rigid bodies/anvil/Geometry", "1900", "millimetres"});
   expect_parts(message_of(replaced(good,
                                    "set Friction coefficient = 0",
                                    "set Method = penalty\n    set Friction coefficient = 0")),

@@ -58,7 +58,9 @@ TEST(EquationsLedgerMpi, SumsOverRanksAndSteps)
   EXPECT_EQ(books.ledger.value("heat"), .75 * n);
   EXPECT_EQ(books.ledger.value("work"), 3. * n);
   EXPECT_EQ(books.ledger.value("lowest"), -3.);
-  EXPECT_EQ(books.ledger.value("force"), 0.); // none in the last step
+  books.close_with({{books.kinetic, 6.}});
+  EXPECT_EQ(books.ledger.value("lowest"), 0.); // nobody had anything
+  EXPECT_EQ(books.ledger.value("force"), 0.); // none in the last steps
   EXPECT_EQ(books.ledger.value("total_energy"), 6. * n);
   EXPECT_EQ(books.ledger.value("energy_error"), (6. - 3. + .75 - 3.) * n);
   EXPECT_EQ(books.ledger.value_or("none", 2.), 2.);

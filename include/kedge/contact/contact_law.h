@@ -27,6 +27,15 @@ namespace kedge
     bool at_rest = false;
   };
 
+  /**
+   * eps_t over eps for a Poisson's ratio: Mindlin's of half-spaces, (1 - nu)/(1 - nu/2), but along
+   * the surface no stiffer than three times a sheared cell, 3 G/M. Soil that hardly changes its
+   * volume has a large M; with Mindlin's ratio alone it would slip after a part of its strain so
+   * small that Newton's method goes to and fro between sticking and slipping.
+   */
+  double
+  tangent_ratio(const double poisson);
+
   /** The law of a section of Contact, with the stiffnesses of a pair of surfaces [Pa/m]; its shear
    * limit is of the place (ShearLimit). */
   ContactLaw
