@@ -49,8 +49,10 @@ kedge_add_scene_test(refusal.wall_displacement.not_finite prm/bar_on_wall.prm
 kedge_add_scene_test(scene.flattened_block.ranks prm/flattened_block.prm RANKS 2)
 kedge_add_restart_test(scene.restart.flattened_block prm/flattened_block.prm KILLS 2
   SET "Output/Checkpoint every steps = 5")
+# with 40 steps it is chance how much of the block bears at the end, for waves lift parts of it
 kedge_add_scene_test(scene.flattened_block.in_motion prm/flattened_block.prm
-  SET "Time/Scheme = clc-midpoint" "Constants/books = 1e-11" "Constants/tolerance = 2")
+  SET "Time/Scheme = clc-midpoint" "Constants/steps = 80" "Constants/books = 1e-11"
+    "Constants/tolerance = 2")
 kedge_add_scene_test(refusal.wall_displacement prm/bars_unequal.prm
   SET "Contact/bars/Wall displacement = t; 0" EXPECT_EXIT 1
   EXPECT_STDERR "Wall displacement.*There is no Wall")
