@@ -99,6 +99,10 @@ kedge_add_scene_test(scene.collapse.ample prm/collapse.prm
   SET "Constants/points = 6" "Time/Scheme = quasi-static" "Constants/books = 0.01")
 kedge_add_scene_test(scene.strip_footing prm/strip_footing.prm
   SET "Constants/n = 4" COMPARE_RANKS 1e-6)
+# until it is in two pieces, which bear nothing
+kedge_add_scene_test(scene.necking_bar.separates prm/necking_bar.prm
+  SET "Constants/T = 0.6" "Constants/steps = 600" "Checks/a neck takes the load away/Reference = 0"
+    "Checks/a neck takes the load away/Tolerance = 1e-4" "Output/Points interval = 0")
 kedge_add_scene_test(scene.necking_bar prm/necking_bar.prm
   SET "Output/Points interval = 0")
 

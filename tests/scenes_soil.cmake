@@ -62,6 +62,11 @@ kedge_add_scene_test(scene.k0_layer.dense prm/k0_layer.prm
 kedge_add_scene_test(scene.k0_layer.returned prm/k0_layer.prm SET "Constants/K0 = 0.2"
   EXPECT_EXIT 2 EXPECT_STDOUT "80 of 80 material points .100 .. began beyond the yield surface"
   EXPECT_STDERR "^$")
+kedge_add_scene_test(scene.cut_failure prm/cut_failure.prm)
+# the scene can fail: half the weight, it stands
+kedge_add_scene_test(scene.cut_failure.stands prm/cut_failure.prm
+  SET "Constants/N = 3" "Constants/n = 4" "Constants/T = 2" EXPECT_EXIT 2
+  EXPECT_STDOUT "FAIL it slides" EXPECT_STDERR "^$")
 # beyond the limit load: through failure to rest, and nothing of the kind where there is none
 kedge_add_scene_test(scene.slope_failure prm/slope_failure.prm)
 kedge_add_scene_test(scene.slope_failure.stands prm/slope_failure.prm
