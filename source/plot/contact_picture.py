@@ -85,7 +85,7 @@ def draw_contact(run, options):
         if in_space:
             draw_triangles(panel, corners, factor * pressure, norm, view)
         else:
-            rigid.draw(panel, time)
+            rigid.draw(panel, time, lambda body: "#dfe2e6", zorder=0.5) # bars stand in the tool
             draw_bars(panel, corners, pressure, fields["state"][:, 0],
                       LONGEST * max(high - low) / largest)
         panel.set(xlim=(low[0] - margin, high[0] + margin), aspect="equal",

@@ -68,8 +68,8 @@ class RigidShapes:
         return (np.minimum(low, np.maximum(least, low - room)),
                 np.maximum(high, np.minimum(most, high + room)))
 
-    def draw(self, panel, time, colour_of=lambda body: GREY, opaque=True):
-        """The bodies as they are at a time."""
+    def draw(self, panel, time, colour_of=lambda body: GREY, opaque=True, zorder=3):
+        """The bodies as they are at a time, above the material, or below with a small zorder."""
         if not self.series:
             return
         corners, bodies = self.at(time)
@@ -79,7 +79,7 @@ class RigidShapes:
                 draw_triangles(panel, mine, colour_of(body), opaque)
             else:
                 panel.add_patch(PathPatch(outline_of(mine[:, :, :2]), facecolor=colour_of(body),
-                                          edgecolor="#30343a", linewidth=0.7, zorder=3))
+                                          edgecolor="#30343a", linewidth=0.7, zorder=zorder))
 
 
 def draw_triangles(panel, corners, colour, opaque):
