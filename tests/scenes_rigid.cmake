@@ -45,6 +45,7 @@ kedge_add_scene_test(scene.flattened_by_tool tests/scenes/flattened_by_tool.prm)
 kedge_add_scene_test(scene.flattened_by_tool.in_motion tests/scenes/flattened_by_tool.prm
   SET "Time/Scheme = clc-midpoint" "Time/Step = 5e-3" "Constants/books = 1e-11"
     "Constants/tolerance = 2")
+kedge_add_scene_test(scene.wedge_push_in prm/wedge_push_in.prm)
 foreach(alpha 0 1)
   kedge_add_scene_test(scene.blade.alpha_${alpha} prm/blade.prm SET "Constants/alpha = ${alpha}")
 endforeach()
