@@ -81,7 +81,7 @@ def scales(history):
                  if name.endswith("_energy") or name == "external_work")
     momentum = math.sqrt(2 * largest["mass"] * largest["kinetic_energy"])
     for name in largest:
-        if "momentum" in name:
+        if "momentum" in name or "torque" in name:
             largest[name] = max(largest[name], momentum)
         elif name == "fluid_error":
             largest[name] = largest["fluid_mass"]

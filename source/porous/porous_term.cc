@@ -44,38 +44,9 @@ namespace kedge
   void
   PorousTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &points)
   {
-    saturate(points);
+    saturate(bodies, patch, points);
     surfaces.attach(points, bodies.names);
     fluxes.attach(points, bodies.names);
-  }
-
-
-
-  template <int dim>
-  void
-  PorousTerm<dim>::saturate(std::vector<GeneratedPoint<dim>> &points) const
-  {
-    std::vector<Expression> pressure;
-    for (const auto &text : bodies.initial_pore_pressure)
-      pressure.emplace_back(text, std::vector<std::string>{"x", "y", "z"}, bodies.constants);
-    for (auto &point : points)
-      {
-        PointState<dim> &state = point.record.state;
-        const auto       body  = static_cast<unsigned int>(state.body);
-        if (!patch.holds(body))
-          continue;
-        const PoreFluid &fluid = bodies.soils[body].fluid;
-        double           x[3]  = {0, 0, 0};
-        for (int d = 0; d < dim; ++d)
-          x[d] = point.record.location[d];
-        state.pore_pressure = pressure[body](x);
-        state.porosity      = fluid.initial_porosity;
-        // mass is that of grains without pores up to here
-        state.mass *= 1. - state.porosity;
-        if (bodies.soils[body].dry_storage == 0.)
-          state.mass +=
-            state.porosity * fluid.density(state.pore_pressure) * state.reference_volume;
-      }
   }
 
 
@@ -132,7 +103,7 @@ namespace kedge
     surfaces.reinit(cloud, patch);
     fluxes.reinit(cloud, patch);
     surfaces.valves.reinit(surfaces.one_way());
-    prepared.have_pattern = prepared.have_pattern && !patch.new_pattern();
+    prepared.activate(patch);
   }
 
 
@@ -142,28 +113,10 @@ namespace kedge
   void
   PorousTerm<dim>::initialise(MaterialPoints<dim> &cloud)
   {
-    std::vector<double> fluctuation(patch.points.size());
-    for (unsigned int b = 0; b < bodies.soils.size(); ++b)
-      {
-        const Expression    pressure(bodies.initial_pore_pressure[b],
-                                  {"x", "y", "z"},
-                                  bodies.constants);
-        std::vector<double> at_nodes(patch.nodes.n_local());
-        for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
-          {
-            const auto x    = patch.node_position(i);
-            double     v[3] = {0, 0, 0};
-            for (int d = 0; d < dim; ++d)
-              v[d] = x[d];
-            at_nodes[i] = pressure(v);
-          }
-        const auto of_body = PorousForce<dim>::fluctuations(patch, at_nodes);
-        for (const auto &batch : patch.points.batches)
-          if (batch.body == b)
-            std::copy(of_body.begin() + batch.begin,
-                      of_body.begin() + batch.end,
-                      fluctuation.begin() + batch.begin);
-      }
+    const std::vector<double> fluctuation =
+      fluctuations_of(bodies, patch, [](const PoreFluid &, const double p) {
+        return p;
+      });
     cloud.update_each([&](const unsigned int number, dealii::Point<dim> &, PointState<dim> &state) {
       const unsigned int slot = patch.points.slot_of[number];
       if (slot != StepPoints<dim>::no_slot)
@@ -187,7 +140,7 @@ namespace kedge
   void
   PorousTerm<dim>::start(Trial<dim> &trial)
   {
-    prepared.have_values = false;
+    prepared.start();
     surfaces.valves.start();
     outflow.assign(surfaces.points().size(), 0.);
     pressure_mapping.map(patch, pores.pressure, radius, trial.unknowns.fields[field]);
@@ -337,21 +290,14 @@ namespace kedge
                                   const Tangent<dim> &tangent,
                                   LinearSolver       &solver)
   {
-    if (solver.choose(tangent.system()) != LinearSolverKind::krylov_blocks)
-      return;
-    if (!prepared.have_pattern)
-      prepared.blocks.reinit(patch, tangent.equations(field), tangent.lattice(field).radius());
-    prepared.have_pattern = true;
-    if (prepared.have_values)
-      return;
     const double factor  = porous_force.scheme().content_factor();
     const double inertia = scheme.inertia_coefficient(trial.times.dt);
-    prepared.blocks.assemble(patch,
-                             modulus_of_body,
-                             factor / scheme.alpha_f,
-                             inertia > 0. ? factor / inertia : 0.);
-    prepared.have_values = true;
-    solver.set_blocks(prepared.blocks.blocks());
+    prepared.tell(patch,
+                  tangent.equations(field),
+                  tangent.lattice(field).radius(),
+                  tangent.system(),
+                  {modulus_of_body, factor / scheme.alpha_f, inertia > 0. ? factor / inertia : 0.},
+                  solver);
   }
 
 

@@ -153,6 +153,11 @@ namespace kedge
         allow.number(NumberRange::not_negative()).or_empty(),
         "Factor of the polynomial pressure projection, times 1/(2 G), less in short steps with "
         "inertia [-]; 0: none; empty: 1 for Pressure space = equal, none for coarse."},
+       {"Stabilisation theta",
+        "",
+        allow.number(theta).or_empty(),
+        "Of the projection in the scheme clc-midpoint: 1/2 loses no energy, 1 damps pressures "
+        "that alternate [-]; empty: 0.5 if all bodies are gimp, else 0.55."},
        {"Surface penalty",
         "10",
         allow.number(NumberRange::positive()),
@@ -194,7 +199,7 @@ namespace kedge
                       "trapezoidal",
                       "newmark",
                       "generalised-alpha"}),
-        "clc-midpoint conserves energy and momenta. quasi-static leaves inertia out; time then "
+        "clc-midpoint conserves energy and momenta, of saturated bodies too. quasi-static leaves inertia out; time then "
         "only counts the load. clc-quasi-static balances the middle of the step instead of "
         "its end, so that the energy books close."},
        {"Start", "0", allow.number(), "When the run starts [s]."},

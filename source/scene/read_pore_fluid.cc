@@ -37,11 +37,12 @@ namespace kedge
     {
       const SchemeKind scheme = scene.time.scheme;
       if (scheme != SchemeKind::quasi_static && scheme != SchemeKind::newmark &&
-          scheme != SchemeKind::trapezoidal && scheme != SchemeKind::midpoint)
+          scheme != SchemeKind::trapezoidal && scheme != SchemeKind::midpoint &&
+          scheme != SchemeKind::clc_midpoint)
         throw SectionReader(reader, {"Time"})
           .error("Scheme",
-                 "Saturated bodies (Pore fluid) go with quasi-static, newmark, trapezoidal and "
-                 "midpoint.");
+                 "Saturated bodies (Pore fluid) go with clc-midpoint, quasi-static, newmark, "
+                 "trapezoidal and midpoint.");
       if (scene.time.step_kind != StepSizeKind::fixed)
         throw SectionReader(reader, {"Time"})
           .error("Step", "Saturated bodies (Pore fluid) need a fixed step.");
@@ -60,6 +61,34 @@ namespace kedge
       if (scene.transfer.lumping > 0.)
         throw SectionReader(reader, {"Mapping"})
           .error("Lumping", "In saturated bodies (Pore fluid) the mass matrix must be consistent.");
+    }
+
+    /** Refuses what the conserving balance does not have, and reads what it alone has. */
+    template <int dim>
+    void
+    read_conserving(const ParameterReader &reader, const Scene<dim> &scene, PorousParameters &pores)
+    {
+      const SectionReader section(reader, {"Pore fluid"});
+      if (scene.time.scheme == SchemeKind::clc_midpoint)
+        {
+          if (pores.coarse_pressure)
+            throw section.error("Pressure space",
+                                "With Time/Scheme = clc-midpoint it must be equal: velocities are "
+                                "no fields of a coarser space.");
+          if (scene.stabilisation.method == StabilisationKind::ghost)
+            throw SectionReader(reader, {"Stabilisation"})
+              .error("Method",
+                     "In saturated bodies (Pore fluid) with Time/Scheme = clc-midpoint it must be "
+                     "aggregation or none.");
+        }
+      const bool smooth =
+        std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyParameters<dim> &body) {
+          return body.basis == BasisKind::gimp;
+        });
+      pores.stabilisation_theta = !section.is_empty("Stabilisation theta")
+                                    ? section.number("Stabilisation theta")
+                                  : smooth ? 0.5
+                                           : 0.55;
     }
 
     /** What its material says of a body's pores, and where it says nothing the fluid. */
@@ -159,6 +188,7 @@ namespace kedge
                                : PressureMap::consistent;
     result.surface_penalty = section.number("Surface penalty");
     result.bodies          = read_bodies(reader, scene);
+    read_conserving(reader, scene, result);
     return result;
   }
 

@@ -66,7 +66,7 @@ namespace kedge
 
   template <int dim>
   PointLayout<dim>
-  layout_of_points(const Bodies &bodies, const bool pores, const bool accelerations)
+  layout_of_points(const Bodies &bodies, const bool pores, const Scheme &scheme)
   {
     AssertThrow(memory_columns().size() <= most_memory_columns, dealii::ExcInternalError());
     std::set<unsigned int> used;
@@ -75,7 +75,11 @@ namespace kedge
     used.erase(not_in_memory);
     used.erase(is_time_step);
     const bool plastic = std::any_of(bodies.materials.begin(), bodies.materials.end(), yields);
-    return PointLayout<dim>({used.begin(), used.end()}, plastic, pores, accelerations);
+    return PointLayout<dim>({used.begin(), used.end()},
+                            plastic,
+                            pores,
+                            pores && scheme.carries_fluid_velocity(),
+                            scheme.carries_acceleration);
   }
 
 
@@ -121,7 +125,9 @@ namespace kedge
         result.bases.push_back(body.basis);
         result.shared_volume.push_back(material.volume_change == VolumeChange::cell_mean);
         // in saturated bodies the balance itself applies it, to a mass that changes
-        result.has_body_force.push_back(body.body_force && !scene.pore_fluid);
+        // of saturated bodies a term of their own holds what else weighs
+        result.has_body_force.push_back(
+          body.body_force && (!scene.pore_fluid || Scheme(scene.time).carries_fluid_velocity()));
         if (!scene.pore_fluid)
           continue;
         const double        G        = 0.5 * material.young_modulus / (1. + material.poisson_ratio);
@@ -144,9 +150,9 @@ namespace kedge
   }
 
   template PointLayout<2>
-  layout_of_points(const Bodies &, const bool, const bool);
+  layout_of_points(const Bodies &, const bool, const Scheme &);
   template PointLayout<3>
-  layout_of_points(const Bodies &, const bool, const bool);
+  layout_of_points(const Bodies &, const bool, const Scheme &);
   template Bodies
   read_bodies(const Scene<2> &);
   template Bodies

@@ -6,7 +6,6 @@
 #include <kedge/contact/ray_contact_term.h>
 #include <kedge/contact/tool_term.h>
 #include <kedge/contact/wall_term.h>
-#include <kedge/porous/porous_ghost_term.h>
 #include <kedge/simulation/model.h>
 #include <kedge/solid/body_condition_term.h>
 #include <kedge/solid/follower_term.h>
@@ -49,12 +48,13 @@ namespace kedge
       add_term(std::make_unique<MotionTerm<dim>>(field, patch, here.transfer.get(), open_sides));
     add_term(std::make_unique<HistoryTerm<dim>>(field, patch, bodies.materials, bodies.columns));
     if (!scene.pore_fluid)
-      {
-        add_term(std::make_unique<SolidTerm<dim>>(field, patch, bodies.materials, scheme));
-        if (here.transfer)
-          add_term(std::make_unique<InertiaTerm<dim>>(field, patch, here.transfer->mass(), scheme));
-      }
-    LoadTerm<dim> &loads = choose_loads(field, motion, program);
+      add_term(std::make_unique<SolidTerm<dim>>(field, patch, bodies.materials, scheme));
+    LoadTerm<dim> &loads   = choose_loads(field, motion, program);
+    const bool     mixture = scene.pore_fluid && scheme.carries_fluid_velocity();
+    if (mixture)
+      choose_mixture_term(field, loads, program); // the first that has a tangent
+    if (here.transfer && (!scene.pore_fluid || mixture))
+      add_term(std::make_unique<InertiaTerm<dim>>(field, patch, here.transfer->mass(), scheme));
     add_term(std::make_unique<SupportTerm<dim>>(field, patch, conditions_of(field), scheme));
     if (!scene.body_conditions.empty())
       choose_body_conditions(field, program);
@@ -75,7 +75,7 @@ namespace kedge
                                                               scene.stabilisation,
                                                               scheme)));
       }
-    if (scene.pore_fluid)
+    if (scene.pore_fluid && !mixture)
       choose_porous_terms(field, loads, ghosts, program);
     return motion;
   }
@@ -148,56 +148,6 @@ namespace kedge
   }
 
 
-
-  namespace
-  {
-    /** The fluid as it flows in the body that lets least pass: what ghosts add is small in all. */
-    PoreFluidParameters
-    in_tightest_body(const PorousParameters &pores)
-    {
-      PoreFluidParameters fluid    = pores.fluid;
-      fluid.hydraulic_conductivity = std::numeric_limits<double>::max();
-      for (const BodyPores &body : pores.bodies)
-        fluid.hydraulic_conductivity =
-          std::min(fluid.hydraulic_conductivity, body.hydraulic_conductivity);
-      return fluid;
-    }
-  } // namespace
-
-  template <int dim>
-  void
-  Model<dim>::choose_porous_terms(const unsigned int    field,
-                                  LoadTerm<dim>        &loads,
-                                  const GhostTerm<dim> *ghosts,
-                                  const LoadProgram    &program)
-  {
-    const Patch<dim> &patch = fields[field]->patch;
-    const PoreScheme  pore_scheme(scene.time);
-    pressure_fraction = pore_scheme.theta;
-    auto &soil        = add_term(std::make_unique<PorousTerm<dim>>(
-      field,
-      patch,
-      SoilBodies{bodies.materials,
-                 bodies.soils,
-                 bodies.names,
-                 bodies.initial_pore_pressure,
-                 scene.constants},
-      loads.external_loads(),
-      SurfacePressures<dim>(scene.surface_pressures, scene.constants, program, surface_terms),
-      SurfaceFluxes<dim>(scene.surface_fluxes, scene.constants, program, surface_terms),
-      *scene.pore_fluid,
-      scheme,
-      pore_scheme,
-      fields[field]->tangent_radius));
-    loads.add_forces(soil.water_pressures());
-    if (ghosts != nullptr)
-      add_term(std::make_unique<PorousGhostTerm<dim>>(field,
-                                                      patch,
-                                                      *ghosts,
-                                                      soil,
-                                                      scene.stabilisation,
-                                                      in_tightest_body(*scene.pore_fluid)));
-  }
 
   namespace
   {

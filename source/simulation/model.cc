@@ -23,7 +23,7 @@ namespace kedge
              OpenSides<dim>(scene.open_sides),
              layout_of_points<dim>(bodies,
                                    scene.pore_fluid.has_value(),
-                                   scheme.carries_acceleration),
+                                   scheme),
              communicator)
   {
     make_fields(program);

@@ -72,6 +72,8 @@ namespace kedge
     if (has_stage)
       {
         stage = find_equilibrium(model.scene, communicator, folder.log());
+        for (const auto &term : model.terms)
+          term->take_over(stage.points);
         model.points.replace(std::move(stage.points));
         for (auto &term : model.terms)
           term->restore(stage.terms);

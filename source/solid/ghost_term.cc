@@ -22,23 +22,6 @@ namespace kedge
       matrix.set_zero();
     }
 
-    /** sums += factor A x, dim values of x per local node, n_components() of the sums. */
-    template <int dim>
-    void
-    add_product(const Patch<dim>          &patch,
-                const double               factor,
-                const NodeMatrix<dim>     &matrix,
-                const std::vector<double> &x,
-                std::vector<double>       &sums)
-    {
-      std::vector<double> Ax(x.size());
-      multiply(matrix, patch, dim, x, Ax);
-      const std::size_t n_components = patch.n_components();
-      for (std::size_t i = 0; i < x.size() / dim; ++i)
-        for (int d = 0; d < dim; ++d)
-          sums[i * n_components + d] += factor * Ax[i * dim + d];
-    }
-
     /** x . A y, this rank's share. */
     template <int dim>
     double

@@ -7,7 +7,7 @@ namespace kedge
   Answer
   InertiaTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
   {
-    multiply(mass, patch, dim, trial.motion[field].acceleration, residual.partial(field));
+    add_product(patch, 1., mass, trial.motion[field].acceleration, residual.partial(field));
     return {};
   }
 

@@ -264,6 +264,22 @@ namespace kedge
   }
 
   template <int dim>
+  void
+  add_product(const Patch<dim>          &patch,
+              const double               factor,
+              const NodeMatrix<dim>     &matrix,
+              const std::vector<double> &x,
+              std::vector<double>       &sums)
+  {
+    std::vector<double> Ax(x.size());
+    multiply(matrix, patch, dim, x, Ax);
+    const std::size_t n_components = patch.n_components();
+    for (std::size_t i = 0; i < x.size() / dim; ++i)
+      for (int d = 0; d < dim; ++d)
+        sums[i * n_components + d] += factor * Ax[i * dim + d];
+  }
+
+  template <int dim>
   std::vector<unsigned int>
   node_neighbours(const NodeMatrix<dim> &matrix, const Patch<dim> &patch)
   {
@@ -365,6 +381,11 @@ namespace kedge
                                                         const std::vector<unsigned int> &,         \
                                                         const std::vector<double> &,               \
                                                         std::vector<double> &);                    \
+  template void                      add_product(const Patch<dim> &,                               \
+                                                 const double,                                     \
+                                                 const NodeMatrix<dim> &,                          \
+                                                 const std::vector<double> &,                      \
+                                                 std::vector<double> &);                           \
   template void                      multiply(const NodeMatrix<dim> &,                             \
                                               const Patch<dim> &,                                  \
                                               const unsigned int,                                  \

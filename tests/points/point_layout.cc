@@ -44,16 +44,16 @@ TEST(PointsPointLayout, StoresEverythingIfNothingIsSaid)
 TEST(PointsPointLayout, WhatAnElasticPointDoesNotUseTakesNoMemory)
 {
   // counted by hand: 4 scalars, 5 vectors, F and B, tau, 3 of plane strain's and the energy
-  EXPECT_EQ(PointLayout<2>({}, false, false, false).n_values(), 4 + 10 + 8 + 3 + 3);
-  EXPECT_EQ(PointLayout<3>({}, false, false, false).n_values(), 4 + 15 + 18 + 6 + 3);
+  EXPECT_EQ(PointLayout<2>({}, false, false, false, false).n_values(), 4 + 10 + 8 + 3 + 3);
+  EXPECT_EQ(PointLayout<3>({}, false, false, false, false).n_values(), 4 + 15 + 18 + 6 + 3);
   // energies of hardening and dissipation; a column; five scalars and a vector of the pores
-  EXPECT_EQ(PointLayout<3>({2}, true, true, true).n_values(), 46 + 3 + 1 + 2 + 5 + 3);
+  EXPECT_EQ(PointLayout<3>({2}, true, true, false, true).n_values(), 46 + 3 + 1 + 2 + 5 + 3);
 }
 
 TEST(PointsPointLayout, OnlyWhatIsUsedComesBack)
 {
   const auto all  = numbered<2>();
-  const auto some = stored<2>({{0, 3}, false, true, false});
+  const auto some = stored<2>({{0, 3}, false, true, false, false});
   EXPECT_EQ(some.body, all.body);
   EXPECT_EQ(some.strain_energy, all.strain_energy);
   EXPECT_EQ(some.memory[0], all.memory[0]);

@@ -189,6 +189,27 @@ TYPED_TEST(StressForce, ConservingStressTendsToTheMeanOfBothEnds)
     });
 }
 
+// A motion that is rigid leaves strains of round-off: the tangent must be that of rest. Expected:
+// it differs by O(|A|); tolerance: far less than the stiffness, 1, and far more than |A|.
+TYPED_TEST(StressForce, StrainsOfRoundOffChangeNoTangent)
+{
+  constexpr int dim = TypeParam::value;
+  for_many_states<dim>(
+    {1e-14, 1e-16, 1e-17, 1e-19},
+    5,
+    [&](const PointState<dim> &point, const double(&A)[dim][dim], const double) {
+      const StressState<dim> state          = make_stress_state(point);
+      const double           rest[dim][dim] = {};
+      const auto             moved = evaluate<dim, StressRule::conserving, true>(state, A, 0.5);
+      const auto             here  = evaluate<dim, StressRule::conserving, true>(state, rest, 0.5);
+      for (int i = 0; i < dim; ++i)
+        for (int R = 0; R < dim; ++R)
+          for (int m = 0; m < dim; ++m)
+            for (int S = 0; S < dim; ++S)
+              EXPECT_NEAR(moved.tangent[i][R][m][S], here.tangent[i][R][m][S], 1e-6);
+    });
+}
+
 TYPED_TEST(StressForce, RotationsDoNoWorkAndTurnTheStress)
 {
   constexpr int     dim = TypeParam::value;

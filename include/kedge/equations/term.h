@@ -34,6 +34,7 @@ namespace kedge
    *
    * In the course of a run:
    *   attach                      to the points just generated
+   *   take_over                   those of a stage of equilibrium in their place
    *   declare                     its unknowns, its columns of the books
    *   each configuration:         reach, activate
    *   each attempt at a step:     start; add_residual, add_tangent, prepare_solver; refresh; finish
@@ -63,6 +64,11 @@ namespace kedge
      */
     virtual void
     attach(std::vector<GeneratedPoint<dim>> &)
+    {}
+
+    /** Prepares points that a stage of equilibrium has left for the scheme of the run. */
+    virtual void
+    take_over(std::vector<PointRecord<dim>> &) const
     {}
 
     /** Declares unknowns, weights and traits of the equations. */

@@ -83,6 +83,23 @@ namespace kedge
       return bulk_modulus / reference_density * value;
     }
 
+    /**
+     * rho_0 mu of the free enthalpy per mass mu (4.112), which a pressure at rest has:
+     * K_f (1 - exp(-p/K_f)) [Pa].
+     */
+    double
+    potential(const double pressure) const
+    {
+      return -bulk_modulus * std::expm1(-pressure / bulk_modulus);
+    }
+
+    /** Its slope by the pressure, rho_0/rho_f [-]. */
+    double
+    potential_slope(const double pressure) const
+    {
+      return std::exp(-pressure / bulk_modulus);
+    }
+
     /** n(J), (4.89). */
     double
     porosity(const double J) const

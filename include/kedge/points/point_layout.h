@@ -27,11 +27,13 @@ namespace kedge
      * @param memory         numbers of the columns of PointState::memory,
      * @param plastic        energies of hardening and dissipation,
      * @param pores          what belongs to saturated soil,
+     * @param fluid_motion   the fluid's own velocity, that the scheme carries,
      * @param accelerations  those that the scheme carries
      */
     PointLayout(const std::vector<unsigned int> &memory,
                 const bool                       plastic,
                 const bool                       pores,
+                const bool                       fluid_motion,
                 const bool                       accelerations)
     {
       using S = PointExtras<dim>;
@@ -44,7 +46,9 @@ namespace kedge
       if (plastic)
         add(offsetof(S, hardening_energy), offsetof(S, pore_pressure));
       if (pores)
-        add(offsetof(S, pore_pressure), sizeof(S));
+        add(offsetof(S, pore_pressure), offsetof(S, end_pore_pressure));
+      if (fluid_motion)
+        add(offsetof(S, end_pore_pressure), sizeof(S));
     }
 
     /** Whether anything is stored besides the core. */

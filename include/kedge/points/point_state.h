@@ -63,6 +63,9 @@ namespace kedge
     double                 fluid_content_rate;        ///< m' per V0 [kg/m^3/s], if carried
     double                 fluid_content_rate_change; ///< m'' per V0 [kg/m^3/s^2], if carried
     dealii::Tensor<1, dim> darcy_velocity;            ///< fluid's volume per area and time [m/s]
+    // where the scheme carries it; pore_pressure is that of the last balance then
+    double                 end_pore_pressure; ///< at the end of the step [Pa]
+    dealii::Tensor<1, dim> fluid_velocity;    ///< [m/s]
   };
 
   /**

@@ -30,7 +30,8 @@ namespace kedge
     PoreFluidParameters fluid;                   ///< but what differs from body to body
     bool                coarse_pressure = false; ///< whether it lives at the cells' corners alone
     double              stabilisation   = 1;     ///< of (4.179): tau = stabilisation/(2 G) [-]
-    PressureMap         pressure_map    = PressureMap::consistent;
+    double              stabilisation_theta = 0.55; ///< of the conserving scheme, in [1/2, 1] [-]
+    PressureMap         pressure_map        = PressureMap::consistent;
     double surface_penalty = 10;   ///< of SurfacePressures, times conductivity over cell size [-]
     std::vector<BodyPores> bodies; ///< one per body
   };

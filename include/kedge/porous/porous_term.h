@@ -3,23 +3,14 @@
 
 #include <kedge/equations/term.h>
 #include <kedge/porous/porous_force.h>
-#include <kedge/porous/pressure_blocks.h>
+#include <kedge/porous/prepared_blocks.h>
 #include <kedge/porous/pressure_mapping.h>
+#include <kedge/porous/soil_bodies.h>
 #include <kedge/porous/surface_fluxes.h>
 #include <kedge/solid/external_loads.h>
 
 namespace kedge
 {
-  /** The initial pore pressures of bodies and what they are made of, one per body. */
-  struct SoilBodies
-  {
-    std::vector<Material>         materials;
-    std::vector<Soil>             soils;
-    std::vector<std::string>      names;
-    std::vector<std::string>      initial_pore_pressure; ///< expressions of x, y, z [Pa]
-    std::map<std::string, double> constants;             ///< of expressions
-  };
-
   /**
    * The u-p balance of the saturated bodies of a field (4.154), (4.155), dim displacements and a
    * pore pressure per node:
@@ -144,8 +135,6 @@ namespace kedge
     };
 
     void
-    saturate(std::vector<GeneratedPoint<dim>> &points) const;
-    void
     set_supply(const StepTimes &times);
     PorousTrial<dim>
     at_trial(const Trial<dim> &trial) const;
@@ -178,7 +167,7 @@ namespace kedge
 
     PorePoints<dim>              pores;
     PressureMapping<dim>         pressure_mapping;
-    SolverBlocks                 prepared;
+    PreparedBlocks<dim>          prepared;
     std::vector<double>          supply_share; ///< by fluxes in this step; empty: none [m^3]
     std::vector<double>          supply;       ///< the same, complete at the owned nodes
     std::vector<double>          outflow;      ///< through surfaces with a pressure [m^3]

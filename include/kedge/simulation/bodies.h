@@ -7,6 +7,7 @@
 #include <kedge/materials/material.h>
 #include <kedge/points/point_layout.h>
 #include <kedge/porous/pore_points.h>
+#include <kedge/time_integration/scheme.h>
 
 namespace kedge
 {
@@ -39,7 +40,7 @@ namespace kedge
   /** What the points of the bodies have to remember; nothing that they do not need is stored. */
   template <int dim>
   PointLayout<dim>
-  layout_of_points(const Bodies &bodies, const bool pores, const bool accelerations);
+  layout_of_points(const Bodies &bodies, const bool pores, const Scheme &scheme);
 
   template <int dim>
   Bodies

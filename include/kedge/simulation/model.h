@@ -1,6 +1,7 @@
 #ifndef kedge_simulation_model_h
 #define kedge_simulation_model_h
 
+#include <kedge/porous/soil_bodies.h>
 #include <kedge/scene/scene.h>
 #include <kedge/simulation/bodies.h>
 #include <kedge/simulation/field.h>
@@ -96,6 +97,10 @@ namespace kedge
                         LoadTerm<dim>        &loads,
                         const GhostTerm<dim> *ghosts,
                         const LoadProgram    &program);
+    void
+    choose_mixture_term(const unsigned int field, LoadTerm<dim> &loads, const LoadProgram &program);
+    SoilBodies
+    soil_bodies() const;
     /** The node conditions that hold for a field. */
     std::vector<NodeConditionParameters<dim>>
     conditions_of(const unsigned int field) const;

@@ -58,6 +58,13 @@ namespace kedge
              dt * (1. - 0.5 * gamma / beta) * a_n;
     }
 
+    /** Whether the fluid in pores moves by itself, with a velocity at the material points. */
+    bool
+    carries_fluid_velocity() const
+    {
+      return dynamic && conserving_stress;
+    }
+
     /** Part of the step at which surfaces in contact stand in balance; its end without inertia. */
     double
     contact_alpha() const

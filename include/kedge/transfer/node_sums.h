@@ -96,6 +96,15 @@ namespace kedge
                      const std::vector<double>       &x,
                      std::vector<double>             &y);
 
+  /** sums += factor A x, dim values of x per local node, n_components() of the sums. */
+  template <int dim>
+  void
+  add_product(const Patch<dim>          &patch,
+              const double               factor,
+              const NodeMatrix<dim>     &matrix,
+              const std::vector<double> &x,
+              std::vector<double>       &sums);
+
   /**
    * y = A x with this rank's share of the matrix: partial sums at all local
    * nodes. Ghost values of x must be up to date.
