@@ -101,7 +101,10 @@ kedge_add_scene_test(scene.prism_sliding prm/prism_sliding.prm)
 kedge_add_scene_test(scene.patch_contact prm/patch_contact.prm)
 kedge_add_scene_test(scene.patch_contact.shifted prm/patch_contact.prm
   SET "Constants/across = 5/8" "Constants/up = 1/2")
-# soft bodies: h = 1/2 is as far off finite elements as 0.63 %
+kedge_add_scene_test(scene.patch_contact.sliver prm/patch_contact.prm SET "Constants/up = 1/8")
+kedge_add_scene_test(scene.patch_contact.block_3d tests/scenes/patch_contact_3d.prm)
+kedge_add_scene_test(scene.patch_contact.sliver_3d tests/scenes/patch_contact_3d.prm SET "Constants/up = 1/8")
+# soft bodies: h = 1/4 is as far off finite elements as 0.49 %
 kedge_add_scene_test(scene.prism_soft prm/prism_soft.prm SET "Output/Points interval = 0")
 # the adhesion of clay, of the soil and of the place; the checkpoint knows from where depth counts
 kedge_add_scene_test(scene.block_on_clay prm/block_on_clay.prm SET "Output/Points interval = 0")

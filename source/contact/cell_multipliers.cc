@@ -7,22 +7,27 @@ namespace kedge
 {
   template <int dim>
   void
-  CellMultipliers<dim>::add(const dealii::Point<dim>     &place,
-                            const double                  area,
-                            const ContactLaw             &law,
-                            const double                  multiplier,
-                            const dealii::Tensor<1, dim> &slip_n,
-                            const ContactResponse<dim>   &response)
+  CellMultipliers<dim>::add(const dealii::Point<dim>   &place,
+                            const double                area,
+                            const ContactLaw           &law,
+                            double                     &multiplier,
+                            dealii::Tensor<1, dim>     &slip,
+                            const ContactResponse<dim> &response)
   {
     const bool presses = response.pressure > 0.;
-    places.push_back({lattice.cell_of(place), presses, multiplier, law.normal_stiffness});
+    places.push_back({lattice.cell_of(place),
+                      presses,
+                      &multiplier,
+                      law.normal_stiffness,
+                      &slip,
+                      response.slip_end});
     if (!presses)
       return;
     Sums &here = sums[places.back().cell];
     here.area += area;
     here.gap += area * (multiplier - response.pressure) / law.normal_stiffness;
     if (response.sticks)
-      largest_creep = std::max(largest_creep, (response.slip_end - slip_n).norm());
+      largest_creep = std::max(largest_creep, (response.slip_end - slip).norm());
   }
 
 
@@ -40,14 +45,21 @@ namespace kedge
 
 
   template <int dim>
-  double
-  CellMultipliers<dim>::updated(const std::size_t n) const
+  void
+  CellMultipliers<dim>::update() const
   {
-    const Place &place = places[n];
-    if (!place.presses)
-      return 0.;
-    const Sums &here = sums.at(place.cell);
-    return std::max(place.multiplier - place.stiffness * here.gap / here.area, 0.);
+    for (const Place &place : places)
+      {
+        if (!place.presses)
+          {
+            *place.multiplier = 0.;
+            continue;
+          }
+        const Sums &here = sums.at(place.cell);
+        *place.multiplier =
+          std::max(*place.multiplier - place.stiffness * here.gap / here.area, 0.);
+        *place.slip = place.slip_end;
+      }
   }
 
   template class CellMultipliers<2>;

@@ -26,7 +26,10 @@ namespace kedge
       // slips are across the normal that is kept
       result.slip = dealii::Tensor<1, dim>();
       for (const auto &[part, share] : parts)
-        result.slip += share * turned(part->slip, part->normal, result.normal);
+        {
+          result.slip += share * turned(part->slip, part->normal, result.normal);
+          result.lead += share * part->lead;
+        }
       return result;
     });
   }
@@ -41,7 +44,7 @@ namespace kedge
     for (const auto &[facet, last] : memory)
       {
         result.insert(result.end(),
-                      {double(facet), double(last.partner), last.gap, last.multiplier});
+                      {double(facet), double(last.partner), last.gap, last.multiplier, last.lead});
         result.insert(result.end(), last.slip.begin_raw(), last.slip.end_raw());
         result.insert(result.end(), last.normal.begin_raw(), last.normal.end_raw());
       }
@@ -54,7 +57,7 @@ namespace kedge
   ContactMemory<dim>
   restored(const std::vector<double> &saved, const ContactLaw &law, const bool to_gaps)
   {
-    constexpr std::size_t width = 4 + 2 * dim;
+    constexpr std::size_t width = 5 + 2 * dim;
     AssertThrow(saved.size() % width == 0, dealii::ExcInternalError());
     ContactMemory<dim> memory;
     for (auto next = saved.begin(); next != saved.end(); next += width)
@@ -63,10 +66,11 @@ namespace kedge
         last.partner    = static_cast<unsigned int>(next[1]);
         last.gap        = next[2];
         last.multiplier = next[3];
+        last.lead       = next[4];
         for (int d = 0; d < dim; ++d)
           {
-            last.slip[d]   = next[4 + d];
-            last.normal[d] = next[4 + dim + d];
+            last.slip[d]   = next[5 + d];
+            last.normal[d] = next[5 + dim + d];
           }
         if (to_gaps)
           {

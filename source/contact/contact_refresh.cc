@@ -28,12 +28,9 @@ namespace kedge
   ContactTerm<dim>::directions_have_changed()
   {
     const std::vector<Forces>                                      before = sample_forces();
-    std::vector<std::vector<typename SurfaceSamples<dim>::Sample>> samples(passes.size());
-    for (std::size_t k = 0; k < passes.size(); ++k)
-      {
-        samples[k] = passes[k].samples();
-        passes[k].find_anew();
-      }
+    std::vector<std::vector<typename SurfaceSamples<dim>::Sample>> samples;
+    for (auto &half : passes)
+      samples.push_back(half.find_anew());
     const std::vector<Forces> after = sample_forces();
     double                    size = 0., change = 0.;
     for (std::size_t k = 0; k < passes.size(); ++k)
@@ -58,35 +55,14 @@ namespace kedge
   {
     if (n_updates == most_updates)
       return false;
-    using Multipliers = typename SurfaceSamples<dim>::Multipliers;
-    double                                           largest = 0.; // violation [m]
-    std::vector<std::map<unsigned int, Multipliers>> multipliers;
-    for (const auto &half : passes)
-      {
-        CellMultipliers<dim> cells(half.sampled.surface.patch.grid().lattice());
-        multipliers.emplace_back();
-        for (const auto &sample : half.samples())
-          {
-            const ContactResponse<dim> here = half.response(sample);
-            cells.add(half.place_at_balance(sample),
-                      sample.area,
-                      half.law,
-                      sample.multiplier,
-                      sample.slip_n,
-                      here);
-            if (here.pressure > 0.)
-              multipliers.back()[sample.facet] = {0., here.slip_end, sample.partner.normal};
-          }
-        for (std::size_t n = 0; n < half.samples().size(); ++n)
-          if (const auto known = multipliers.back().find(half.samples()[n].facet);
-              known != multipliers.back().end())
-            known->second.pressure = cells.updated(n);
-        largest = std::max(largest, cells.largest_violation());
-      }
-    if (largest <= smallest_gap * cell_size)
+    const Lattice<dim> &lattice = passes.front().sampled.surface.patch.grid().lattice();
+    if (!kedge::update_multipliers<dim>(passes,
+                                        lattice,
+                                        smallest_gap * cell_size,
+                                        [](SurfaceSamples<dim> &half, CellMultipliers<dim> &cells) {
+                                          half.for_multipliers(cells);
+                                        }))
       return false;
-    for (std::size_t k = 0; k < passes.size(); ++k)
-      passes[k].set_multipliers(multipliers[k]);
     ++n_updates;
     return true;
   }
@@ -119,34 +95,20 @@ namespace kedge
     if (!at_rest || n_updates == most_updates)
       return false;
     move(trial);
-    std::vector<CellMultipliers<dim>>                cells;
-    std::vector<std::vector<dealii::Tensor<1, dim>>> slips;
-    double                                           largest = 0.; // [m]
-    for (const Side &side : sides)
-      {
-        cells.emplace_back(side.surface->patch.grid().lattice());
-        slips.emplace_back();
-        for (const Sample &sample : side.samples)
-          {
-            const ContactResponse<dim> here = response(side, sample);
-            cells.back().add(sample.place + alpha * displacement(side, sample),
-                             sample.area,
-                             side.law,
-                             sample.start.multiplier,
-                             sample.start.slip,
-                             here);
-            slips.back().push_back(here.slip_end);
-          }
-        largest = std::max(largest, cells.back().largest_violation());
-      }
-    if (largest <= smallest_gap * cell_size)
+    const Lattice<dim> &lattice = sides.front().surface->patch.grid().lattice();
+    if (!update_multipliers<dim>(sides,
+                                 lattice,
+                                 smallest_gap * cell_size,
+                                 [&](Side &side, CellMultipliers<dim> &cells) {
+                                   for (Sample &sample : side.samples)
+                                     cells.add(sample.place + alpha * sample.D,
+                                               sample.area,
+                                               side.law,
+                                               sample.start.multiplier,
+                                               sample.start.slip,
+                                               response(side, sample));
+                                 }))
       return false;
-    for (std::size_t k = 0; k < sides.size(); ++k)
-      for (std::size_t n = 0; n < sides[k].samples.size(); ++n)
-        {
-          sides[k].samples[n].start.multiplier = cells[k].updated(n);
-          sides[k].samples[n].start.slip       = slips[k][n];
-        }
     ++n_updates;
     return true;
   }

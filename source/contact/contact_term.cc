@@ -58,7 +58,7 @@ namespace kedge
   ContactTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
   {
     for (auto &surface : surfaces)
-      surface->move(std::vector<dealii::Tensor<1, dim>>(surface->surface.n_vertices()), 0.);
+      surface->move({}, 0., 0.);
     for (auto &half : passes)
       {
         if (std::find(parameters.second.begin(),
@@ -116,12 +116,11 @@ namespace kedge
     n_passes = n_updates = n_tangents = n_follows = 0;
     for (auto &surface : surfaces)
       {
-        std::vector<dealii::Tensor<1, dim>> predicted(surface->surface.n_vertices());
-        if (!at_rest)
-          surface->surface.interpolate(trial.motion[surface->surface.field].velocity_n, predicted);
-        for (auto &u : predicted)
-          u *= trial.times.dt;
-        surface->move(predicted, alpha);
+        surface->means.reset(surface->surface);
+        if (at_rest)
+          surface->move({}, 0., alpha);
+        else
+          surface->move(trial.motion[surface->surface.field].velocity_n, trial.times.dt, alpha);
       }
     for (auto &half : passes)
       half.find();
@@ -158,12 +157,10 @@ namespace kedge
   void
   ContactTerm<dim>::move_surfaces(const Trial<dim> &trial)
   {
-    std::vector<dealii::Tensor<1, dim>> displacements;
     for (auto &surface : surfaces)
-      {
-        surface->surface.interpolate(trial.displacement(surface->surface.field), displacements);
-        surface->move(displacements, alpha);
-      }
+      surface->move(trial.displacement(surface->surface.field), 1., alpha);
+    for (auto &half : passes)
+      half.read_displacements();
     read_pore_pressures(trial);
   }
 
@@ -221,25 +218,18 @@ namespace kedge
       }
     for (const auto &half : passes)
       {
-        if (half.samples().empty())
-          continue;
         const BodySurface<dim> &sampled = half.sampled.surface, &other = half.other.surface;
-        Forces                  on_sampled(sampled.n_vertices()), on_other(other.n_vertices());
         for (const auto &sample : half.samples())
           {
             const dealii::Tensor<1, dim> force = sample.area * half.response(sample).traction;
-            for (const unsigned int v : sampled.mesh().facets[sample.facet])
-              on_sampled[v] -= force / dim;
-            for (int i = 0; i < dim; ++i)
-              on_other[other.mesh().facets[sample.partner.facet][i]] +=
-                sample.partner.weights[i] * force;
+            if (force == dealii::Tensor<1, dim>())
+              continue;
+            add_spread_force(sampled,
+                             half.on_sampled(sample),
+                             -force,
+                             residual.partial(sampled.field));
+            add_spread_force(other, sample.on_partner, force, residual.partial(other.field));
           }
-        for (unsigned int v = 0; v < on_sampled.size(); ++v)
-          if (on_sampled[v] != dealii::Tensor<1, dim>())
-            sampled.add_force(v, on_sampled[v], residual.partial(sampled.field));
-        for (unsigned int v = 0; v < on_other.size(); ++v)
-          if (on_other[v] != dealii::Tensor<1, dim>())
-            other.add_force(v, on_other[v], residual.partial(other.field));
       }
     return {};
   }
@@ -269,17 +259,10 @@ namespace kedge
           if (slope == dealii::Tensor<2, dim>())
             continue;
           typename CouplingSum<dim>::Coefficients coefficients;
-          const auto                              add =
-            [&](const BodySurface<dim> &surface, const unsigned int v, const double c) {
-              surface.for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
-                coefficients[{surface.field, node}] += c * N;
-              });
-            };
-          const BodySurface<dim> &sampled = half.sampled.surface, &other = half.other.surface;
-          for (const unsigned int v : sampled.mesh().facets[sample.facet])
-            add(sampled, v, 1. / dim);
-          for (int i = 0; i < dim; ++i)
-            add(other, other.mesh().facets[sample.partner.facet][i], -sample.partner.weights[i]);
+          for (const MeanFunction &of : half.on_sampled(sample))
+            coefficients[{half.sampled.surface.field, of.node}] += of.all;
+          for (const MeanFunction &of : sample.on_partner)
+            coefficients[{half.other.surface.field, of.node}] -= of.all;
           sum.add(coefficients, -sample.area * slope);
           add_pressure_slope(half, sample, coefficients, response.traction_by_pore_pressure, sum);
         }
@@ -351,10 +334,7 @@ namespace kedge
           place.at =
             place.on_first ? half.place_at_balance(sample) : half.partner_at_balance(sample);
           place.area = sample.area;
-          place.set_response(half.response(sample),
-                             sample.partner.normal,
-                             half.relative_displacement(sample),
-                             dt);
+          place.set_response(half.response(sample), sample.partner.normal, sample.D, dt);
           result.push_back(place);
         }
     return result;

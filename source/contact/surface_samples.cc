@@ -52,13 +52,21 @@ namespace kedge
 
   template <int dim>
   void
-  MovingSurface<dim>::move(const std::vector<dealii::Tensor<1, dim>> &of_step, const double part)
+  MovingSurface<dim>::move(const std::vector<double> &of_nodes,
+                           const double               factor,
+                           const double               part)
   {
+    nodal = of_nodes;
+    for (double &u : nodal)
+      u *= factor;
+    if (nodal.empty())
+      displacements.assign(surface.n_vertices(), dealii::Tensor<1, dim>());
+    else
+      surface.interpolate(nodal, displacements);
     if (mesh.facets.empty() || generation != surface.generation())
       mesh = end = surface.mesh();
     generation = surface.generation();
     mesh.left = end.left = surface.mesh().left;
-    displacements        = of_step;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       {
         const dealii::Point<dim> &start = surface.mesh().vertices[v];
@@ -91,52 +99,150 @@ namespace kedge
     if (search.empty())
       return;
     guesses.resize(sampled.mesh.facets.size(), search.no_facet);
-    const FacetSearch<dim> search_end(other.end, box_around(sampled.end, reach));
     for (unsigned int f = 0; f < sampled.mesh.facets.size(); ++f)
       {
-        const auto corners = sampled.mesh.corners(f);
-        const auto x       = middle(sampled.mesh, f);
-        if (sampled.mesh.has_left(f) || !there.point_inside(x))
-          continue;
-        const auto   known    = memory.find(f);
-        const auto   previous = known == memory.end() ? search.no_facet : known->second.partner;
-        const auto   outward  = area_vector<dim>(corners);
-        const double area     = outward.norm();
-        // facets may have been divided and united since
-        const auto guess = guesses[f] < other.mesh.facets.size() ? guesses[f] : search.no_facet;
-        Sample     sample;
-        if (!(area > 0.) || !search.find(x, outward / area, reach, previous, sample.partner, guess))
-          continue;
-        guesses[f]   = sample.partner.facet;
-        sample.facet = f;
-        sample.area  = share * sampled.surface.reference_area(f);
-        if (!set_start(sample))
-          continue;
-        sample.stretch     = sampled.surface.stretch(f);
-        sample.shear_limit = sample.stretch * shear_limit_at(sample);
-        if (law.conserving)
-          tilt_to_end(search_end, sample);
-        samples_.push_back(sample);
+        Sample sample;
+        if (!sampled.mesh.has_left(f) && there.point_inside(middle(sampled.mesh, f)) &&
+            find_sample(f, search, sample))
+          samples_.push_back(std::move(sample));
       }
+    read_displacements();
+    if (!law.conserving)
+      return;
+    const FacetSearch<dim> search_end(other.end, box_around(sampled.end, reach));
+    for (Sample &sample : samples_)
+      tilt_to_end(search_end, sample);
+  }
+
+
+
+  /** What a facet meets; false if it is no contact. */
+  template <int dim>
+  bool
+  SurfaceSamples<dim>::find_sample(const unsigned int      facet,
+                                   const FacetSearch<dim> &search,
+                                   Sample                 &sample)
+  {
+    const auto   known    = memory.find(facet);
+    const auto   previous = known == memory.end() ? search.no_facet : known->second.partner;
+    const auto   outward  = area_vector<dim>(sampled.mesh.corners(facet));
+    const double area     = outward.norm();
+    // facets may have been divided and united since
+    const auto guess = guesses[facet] < other.mesh.facets.size() ? guesses[facet] : search.no_facet;
+    if (!(area > 0.) || !search.find(middle(sampled.mesh, facet),
+                                     outward / area,
+                                     reach,
+                                     previous,
+                                     sample.partner,
+                                     guess))
+      return false;
+    guesses[facet] = sample.partner.facet;
+    sample.facet   = facet;
+    sample.area    = share * sampled.surface.reference_area(facet);
+    if (!set_start(sample))
+      return false;
+    sample.stretch     = sampled.surface.stretch(facet);
+    sample.shear_limit = sample.stretch * shear_limit_at(sample);
+    sample.on_partner  = functions_on_partner(sample);
+    return true;
+  }
+
+
+
+  /** Those of the other body over the facet, moved so that its middle lies at the partner's place.
+   */
+  template <int dim>
+  MeanFunctions
+  SurfaceSamples<dim>::functions_on_partner(const Sample &sample) const
+  {
+    const dealii::Tensor<1, dim> to_partner = partner_place(sample) - place(sample);
+    auto                         corners    = sampled.surface.mesh().corners(sample.facet);
+    for (auto &corner : corners)
+      corner += to_partner;
+    return mean_functions<dim>(other.surface,
+                               corners,
+                               -sample.partner.normal,
+                               sample.partner.facet);
   }
 
 
 
   template <int dim>
   void
-  SurfaceSamples<dim>::find_anew()
+  SurfaceSamples<dim>::read_displacements()
   {
-    std::map<unsigned int, Multipliers> multipliers;
-    for (const Sample &sample : samples_)
-      if (sample.multiplier > 0.)
-        multipliers[sample.facet] = {sample.multiplier, sample.slip_n, sample.partner.normal};
-    find();
-    set_multipliers(multipliers);
+    std::vector<dealii::Tensor<1, dim>> of_samples;
+    if (!sampled.nodal.empty() || !other.nodal.empty())
+      for (const Sample &sample : samples_)
+        of_samples.push_back(own_part_of_mean<dim>(on_sampled(sample), sampled.nodal) -
+                             own_part_of_mean<dim>(sample.on_partner, other.nodal));
+    of_samples.resize(samples_.size());
+    sum_over_ranks<dim>(sampled.surface.patch, of_samples);
+    for (std::size_t n = 0; n < samples_.size(); ++n)
+      samples_[n].D = of_samples[n];
   }
 
 
 
-  /** Tilts s so that g_0 + s.D is the gap that the moved surfaces have at the end of the step. */
+  template <int dim>
+  std::vector<typename SurfaceSamples<dim>::Sample>
+  SurfaceSamples<dim>::find_anew()
+  {
+    std::vector<Sample> before;
+    samples_.swap(before);
+    find();
+    auto known = before.begin(); // both ascend
+    for (Sample &sample : samples_)
+      {
+        while (known != before.end() && known->facet < sample.facet)
+          ++known;
+        sample.multiplier = 0.;
+        if (known == before.end() || known->facet != sample.facet || !(known->multiplier > 0.))
+          continue;
+        sample.multiplier = known->multiplier;
+        sample.slip_n     = turned(known->slip_n, known->partner.normal, sample.partner.normal);
+      }
+    return before;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceSamples<dim>::for_multipliers(CellMultipliers<dim> &cells)
+  {
+    for (Sample &sample : samples_)
+      cells.add(place_at_balance(sample),
+                sample.area,
+                law,
+                sample.multiplier,
+                sample.slip_n,
+                response(sample));
+  }
+
+
+
+  /** Of the middle of a sample's facet and of its partner's place, by the vertices. */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  SurfaceSamples<dim>::displacement_of_middle(const Sample &sample) const
+  {
+    dealii::Tensor<1, dim> D;
+    for (const unsigned int v : sampled.mesh.facets[sample.facet])
+      D += sampled.displacements[v] / dim;
+    const auto &facet = other.mesh.facets[sample.partner.facet];
+    for (int i = 0; i < dim; ++i)
+      D -= sample.partner.weights[i] * other.displacements[facet[i]];
+    return D;
+  }
+
+
+
+  /**
+   * Tilts s so that g_0 + s.D is the gap that the moved surfaces have at the end of the step, but
+   * for how far the mean over the facet has led its middle: a part of a strain, which comes and
+   * goes with it.
+   */
   template <int dim>
   void
   SurfaceSamples<dim>::tilt_to_end(const FacetSearch<dim> &search, Sample &sample) const
@@ -152,10 +258,10 @@ namespace kedge
                      sample.partner.facet))
       return;
     const double                 measured = partner.normal * (x - place_of(other.end, partner));
-    const dealii::Tensor<1, dim> D        = relative_displacement(sample);
+    const dealii::Tensor<1, dim> D        = displacement_of_middle(sample);
     const dealii::Tensor<1, dim> D_t      = D - (D * sample.partner.normal) * sample.partner.normal;
     const double                 way      = D_t.norm();
-    const double                 missing  = measured - sample.gap_n - sample.gap_slope * D;
+    const double missing = measured + sample.lead_n - sample.gap_n - sample.gap_slope * D;
     if (way > 0.)
       sample.gap_slope += std::clamp(missing / way, -largest_tilt, largest_tilt) / way * D_t;
   }
@@ -183,7 +289,10 @@ namespace kedge
     sample.slip_n      = turned(last.slip, last.normal, sample.partner.normal);
     sample.multiplier  = last.multiplier;
     if (law.conserving)
-      sample.gap_n = last.gap;
+      {
+        sample.gap_n  = last.gap;
+        sample.lead_n = last.lead;
+      }
     return true;
   }
 
@@ -233,44 +342,11 @@ namespace kedge
 
 
   template <int dim>
-  dealii::Tensor<1, dim>
-  SurfaceSamples<dim>::relative_displacement(const Sample &sample) const
-  {
-    dealii::Tensor<1, dim> D;
-    for (const unsigned int v : sampled.mesh.facets[sample.facet])
-      D += sampled.displacements[v] / dim;
-    const auto &facet = other.mesh.facets[sample.partner.facet];
-    for (int i = 0; i < dim; ++i)
-      D -= sample.partner.weights[i] * other.displacements[facet[i]];
-    return D;
-  }
-
-
-
-  template <int dim>
   typename SurfaceSamples<dim>::Outcome
   SurfaceSamples<dim>::outcome(const Sample &sample) const
   {
     return {response(sample),
-            sample.partner.normal *
-              (place(sample) - partner_place(sample) + relative_displacement(sample))};
-  }
-
-
-
-  template <int dim>
-  void
-  SurfaceSamples<dim>::set_multipliers(const std::map<unsigned int, Multipliers> &values)
-  {
-    for (Sample &sample : samples_)
-      {
-        const auto found  = values.find(sample.facet);
-        sample.multiplier = 0.;
-        if (found == values.end())
-          continue;
-        sample.multiplier = found->second.pressure;
-        sample.slip_n     = turned(found->second.slip, found->second.normal, sample.partner.normal);
-      }
+            sample.partner.normal * (place(sample) - partner_place(sample) + sample.D)};
   }
 
 
@@ -303,7 +379,9 @@ namespace kedge
         if (is_closed)
           result[sample.facet] = {{r.gap_end, sample.multiplier, r.slip_end},
                                   sample.partner.facet,
-                                  sample.partner.normal};
+                                  sample.partner.normal,
+                                  sample.lead_n +
+                                    sample.gap_slope * (sample.D - displacement_of_middle(sample))};
       }
     return result;
   }

@@ -41,8 +41,10 @@ namespace kedge
 
   template <int dim>
   void
-  ToolSamples<dim>::move(const std::vector<double> &nodal)
+  ToolSamples<dim>::move(const std::vector<double> &of_nodes)
   {
+    nodal = of_nodes;
+    read_displacements();
     if (nodal.empty())
       displacements.assign(body.surface->n_vertices(), dealii::Tensor<1, dim>());
     else
@@ -72,8 +74,24 @@ namespace kedge
 
 
   template <int dim>
+  void
+  ToolSamples<dim>::read_displacements()
+  {
+    std::vector<dealii::Tensor<1, dim>> of_samples(samples.size());
+    if (nodal.empty() || samples.empty())
+      return;
+    for (std::size_t n = 0; n < samples.size(); ++n)
+      of_samples[n] = own_part_of_mean<dim>(functions(samples[n]), nodal);
+    sum_over_ranks<dim>(body.surface->patch, of_samples);
+    for (std::size_t n = 0; n < samples.size(); ++n)
+      samples[n].moves_by = of_samples[n];
+  }
+
+
+
+  template <int dim>
   dealii::Tensor<1, dim>
-  ToolSamples<dim>::surface_displacement(const unsigned int facet) const
+  ToolSamples<dim>::displacement_of_middle(const unsigned int facet) const
   {
     dealii::Tensor<1, dim> D;
     for (const unsigned int v : body.surface->mesh().facets[facet])
@@ -139,12 +157,13 @@ namespace kedge
         sample.area        = body.surface->reference_area(f);
         sample.stretch     = body.surface->stretch(f);
         sample.shear_limit = sample.stretch * limit(sample.place, strength_at(f));
-        if (!set_start(sample))
-          continue;
-        if (law.conserving)
-          tilt_to_end(sample);
-        samples.push_back(sample);
+        if (set_start(sample))
+          samples.push_back(sample);
       }
+    read_displacements();
+    if (law.conserving)
+      for (Sample &sample : samples)
+        tilt_to_end(sample);
   }
 
 
@@ -183,7 +202,10 @@ namespace kedge
     sample.slip       = turned(known->second.slip, known->second.normal, sample.normal);
     sample.multiplier = known->second.multiplier;
     if (law.conserving)
-      sample.gap = known->second.gap;
+      {
+        sample.gap  = known->second.gap;
+        sample.lead = known->second.lead;
+      }
     return true;
   }
 
@@ -197,10 +219,11 @@ namespace kedge
     typename FacetSearch<dim>::Partner partner;
     if (!find_partner(sample.facet, 1., sample.partner, partner))
       return;
-    const dealii::Tensor<1, dim> D       = displacement(sample);
-    const dealii::Tensor<1, dim> D_t     = D - (D * sample.normal) * sample.normal;
-    const double                 way     = D_t.norm();
-    const double                 missing = partner.gap - sample.gap - sample.gap_slope * D;
+    const dealii::Tensor<1, dim> D =
+      displacement(sample) - sample.moves_by + displacement_of_middle(sample.facet);
+    const dealii::Tensor<1, dim> D_t = D - (D * sample.normal) * sample.normal;
+    const double                 way = D_t.norm();
+    const double missing = partner.gap + sample.lead - sample.gap - sample.gap_slope * D;
     if (way > 0.)
       sample.gap_slope += std::clamp(missing / way, -largest_tilt, largest_tilt) / way * D_t;
   }
@@ -249,7 +272,7 @@ namespace kedge
   dealii::Tensor<1, dim>
   ToolSamples<dim>::displacement(const Sample &sample) const
   {
-    return surface_displacement(sample.facet) - in_scene<dim>(bodies.displacement(point(sample)));
+    return sample.moves_by - in_scene<dim>(bodies.displacement(point(sample)));
   }
 
 
@@ -283,8 +306,8 @@ namespace kedge
   {
     const Pose end = pose(1.);
     return in_space<dim>(sample.normal) *
-           (in_space<dim>(dealii::Point<dim>(sample.place + surface_displacement(sample.facet))) -
-            end.centre - end.attitude * sample.on_tool);
+           (in_space<dim>(dealii::Point<dim>(sample.place + sample.moves_by)) - end.centre -
+            end.attitude * sample.on_tool);
   }
 
   template class ToolSamples<2>;

@@ -100,6 +100,7 @@ namespace kedge
     n_passes = n_updates = n_tangents = n_follows = 0;
     for (ToolSamples<dim> &side : sides)
       {
+        side.begin_step();
         std::vector<double> predicted;
         if (!at_rest)
           predicted = trial.motion[side.body.surface->field].velocity_n;
@@ -157,9 +158,10 @@ namespace kedge
           if (force == dealii::Tensor<1, dim>())
             continue;
           const BodySurface<dim> &surface = *side.body.surface;
-          auto                   &sums    = residual.partial(surface.field);
-          for (const unsigned int v : surface.mesh().facets[sample.facet])
-            surface.add_force(v, -1. / dim * force, sums);
+          add_spread_force(surface,
+                           side.functions(sample),
+                           -force,
+                           residual.partial(surface.field));
           rigid.add_force(side.point(sample), -in_space<dim>(force), residual.others());
         }
     return {};
@@ -203,18 +205,19 @@ namespace kedge
     if (slope == dealii::Tensor<2, dim>())
       return;
     const BodySurface<dim>        &surface = *side.body.surface;
-    std::map<unsigned int, double> nodes;
-    for (const unsigned int v : surface.mesh().facets[sample.facet])
-      surface.for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
-        nodes[node] += N / dim;
-      });
+    std::map<unsigned int, double> of_pressures; // where the law asks for them: at the middle
+    if (side.body.carries_water)
+      for (const unsigned int v : surface.mesh().facets[sample.facet])
+        surface.for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
+          of_pressures[node] += N / dim;
+        });
     std::vector<Column> columns;
-    for (const auto &[node, c] : nodes)
+    for (const MeanFunction &of : side.functions(sample))
       for (unsigned int d = 0; d < dim; ++d)
         {
           Vector motion;
-          motion[d] = c;
-          columns.push_back({{surface.field, node, d}, motion, motion});
+          motion[d] = of.all;
+          columns.push_back({{surface.field, of.node, d}, motion, motion});
         }
     const RigidPoint point = side.point(sample);
     rigid.for_unknowns(point,
@@ -228,8 +231,8 @@ namespace kedge
         const Vector by_motion = -sample.area * (row.work * slope);
         for (const Column &column : columns)
           tangent.add(row.unknown, column.unknown, by_motion * column.motion);
-        if (side.body.carries_water && here.traction_by_pore_pressure != Vector())
-          for (const auto &[node, c] : nodes)
+        if (here.traction_by_pore_pressure != Vector())
+          for (const auto &[node, c] : of_pressures)
             tangent.add(row.unknown,
                         {surface.field, node, dim},
                         -sample.area * c * (row.work * here.traction_by_pore_pressure));
@@ -291,34 +294,20 @@ namespace kedge
   {
     if (n_updates == most_updates)
       return false;
-    std::vector<CellMultipliers<dim>>                cells;
-    std::vector<std::vector<dealii::Tensor<1, dim>>> slips;
-    double                                           largest = 0.; // [m]
-    for (const ToolSamples<dim> &side : sides)
-      {
-        cells.emplace_back(side.body.surface->patch.grid().lattice());
-        slips.emplace_back();
-        for (const Sample &sample : side.samples)
-          {
-            const ContactResponse<dim> here = side.response(sample);
-            cells.back().add(side.place_at_balance(sample),
-                             sample.area,
-                             side.law,
-                             sample.multiplier,
-                             sample.slip,
-                             here);
-            slips.back().push_back(here.slip_end);
-          }
-        largest = std::max(largest, cells.back().largest_violation());
-      }
-    if (largest <= smallest_gap * cell_size)
+    const Lattice<dim> &lattice = sides.front().body.surface->patch.grid().lattice();
+    if (!kedge::update_multipliers<dim>(sides,
+                                        lattice,
+                                        smallest_gap * cell_size,
+                                        [](ToolSamples<dim> &side, CellMultipliers<dim> &cells) {
+                                          for (Sample &sample : side.samples)
+                                            cells.add(side.place_at_balance(sample),
+                                                      sample.area,
+                                                      side.law,
+                                                      sample.multiplier,
+                                                      sample.slip,
+                                                      side.response(sample));
+                                        }))
       return false;
-    for (std::size_t k = 0; k < sides.size(); ++k)
-      for (std::size_t n = 0; n < sides[k].samples.size(); ++n)
-        {
-          sides[k].samples[n].multiplier = cells[k].updated(n);
-          sides[k].samples[n].slip       = slips[k][n];
-        }
     ++n_updates;
     return true;
   }
@@ -387,6 +376,7 @@ namespace kedge
         after.slip                           = end.slip_end;
         after.partner                        = sample.partner;
         after.normal                         = sample.normal;
+        after.lead                           = side.lead_at_end(sample);
         taken_up += sample.area * side.stored(before);
         left += sample.area * side.stored(after);
         if (side.law.conserving ? end.gap_end < 0. || true_gap < 0. : end.pressure > 0.)

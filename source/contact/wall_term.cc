@@ -144,7 +144,10 @@ namespace kedge
     moves_by         = motion.displacement(t_n + trial.times.dt) - motion.displacement(t_n);
     n_updates        = 0;
     for (Side &side : sides)
-      find(side);
+      {
+        side.means.reset(*side.surface);
+        find(side);
+      }
   }
 
 
@@ -156,23 +159,17 @@ namespace kedge
     for (Side &side : sides)
       if (!side.samples.empty())
         {
-          side.surface->interpolate(trial.displacement(side.surface->field), side.displacements);
+          std::vector<dealii::Tensor<1, dim>> of_samples;
+          for (const Sample &sample : side.samples)
+            of_samples.push_back(own_part_of_mean<dim>(side.means.of(sample.facet),
+                                                       trial.displacement(side.surface->field)));
+          sum_over_ranks<dim>(side.surface->patch, of_samples);
+          for (std::size_t n = 0; n < of_samples.size(); ++n)
+            side.samples[n].D = of_samples[n];
           if (side.carries_water)
             side.surface->interpolate_pressure(trial.unknowns.fields[side.surface->field],
                                                side.pore_pressures);
         }
-  }
-
-
-
-  template <int dim>
-  dealii::Tensor<1, dim>
-  WallTerm<dim>::displacement(const Side &side, const Sample &sample) const
-  {
-    dealii::Tensor<1, dim> D;
-    for (const unsigned int v : side.surface->mesh().facets[sample.facet])
-      D += side.displacements[v] / dim;
-    return D;
   }
 
 
@@ -194,7 +191,7 @@ namespace kedge
                             sample.start.gap,
                             sample.start.slip,
                             sample.start.multiplier,
-                            relative_displacement(side, sample),
+                            sample.D - moves_by,
                             pore_pressure);
   }
 
@@ -225,14 +222,29 @@ namespace kedge
     for (const Side &side : sides)
       for (const Sample &sample : side.samples)
         {
-          const dealii::Tensor<1, dim> force = sample.area / dim * response(side, sample).traction;
-          if (force == dealii::Tensor<1, dim>())
-            continue;
-          auto &sums = residual.partial(side.surface->field);
-          for (const unsigned int v : side.surface->mesh().facets[sample.facet])
-            side.surface->add_force(v, -force, sums);
+          const dealii::Tensor<1, dim> force = sample.area * response(side, sample).traction;
+          if (force != dealii::Tensor<1, dim>())
+            add_spread_force(*side.surface,
+                             side.means.of(sample.facet),
+                             -force,
+                             residual.partial(side.surface->field));
         }
     return {};
+  }
+
+
+
+  /** The pore pressure at a sample is the sum of these times those of the nodes. */
+  template <int dim>
+  typename CouplingSum<dim>::Coefficients
+  WallTerm<dim>::pressure_functions(const Side &side, const Sample &sample) const
+  {
+    typename CouplingSum<dim>::Coefficients result;
+    for (const unsigned int v : side.surface->mesh().facets[sample.facet])
+      side.surface->for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
+        result[{side.surface->field, node}] += N / dim;
+      });
+    return result;
   }
 
 
@@ -257,14 +269,12 @@ namespace kedge
           if (slope == dealii::Tensor<2, dim>())
             continue;
           typename CouplingSum<dim>::Coefficients coefficients;
-          for (const unsigned int v : side.surface->mesh().facets[sample.facet])
-            side.surface->for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
-              coefficients[{side.surface->field, node}] += N / dim;
-            });
+          for (const MeanFunction &of : side.means.of(sample.facet))
+            coefficients[{side.surface->field, of.node}] = of.all;
           sum.add(coefficients, -sample.area * slope);
           if (side.carries_water && here.traction_by_pore_pressure != dealii::Tensor<1, dim>())
             sum.add_by_pressure(coefficients,
-                                coefficients,
+                                pressure_functions(side, sample),
                                 -sample.area * here.traction_by_pore_pressure);
         }
     sum.add_to(tangent);
@@ -285,9 +295,9 @@ namespace kedge
         double taken_up = 0., left = 0.;
         for (const Sample &sample : side.samples)
           {
-            const ContactResponse<dim> end = response(side, sample);
-            const double true_gap = plane.gap(sample.place + relative_displacement(side, sample));
-            const double overlap  = -std::min(true_gap, end.gap_end);
+            const ContactResponse<dim> end      = response(side, sample);
+            const double               true_gap = plane.gap(sample.place + sample.D - moves_by);
+            const double               overlap  = -std::min(true_gap, end.gap_end);
             if (overlap > largest_overlap * cell_size)
               {
                 std::ostringstream cause;
@@ -329,12 +339,9 @@ namespace kedge
     place.surface = side.surface;
     place.facet   = sample.facet;
     place.partner = ContactPicture<dim>::wall;
-    place.at      = sample.place + alpha * displacement(side, sample);
+    place.at      = sample.place + alpha * sample.D;
     place.area    = sample.area;
-    place.set_response(response(side, sample),
-                       plane.normal,
-                       relative_displacement(side, sample),
-                       dt);
+    place.set_response(response(side, sample), plane.normal, sample.D - moves_by, dt);
     return place;
   }
 

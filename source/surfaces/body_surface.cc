@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <set>
 
 namespace kedge
 {
@@ -151,19 +152,34 @@ namespace kedge
     is_known                          = true;
     if (open_sides.any())
       let_out(filling);
-    const std::vector<bool> stays = vertices_that_stay();
+    const std::vector<bool>     stays = vertices_that_stay();
+    std::set<LatticeIndex<dim>> around;
+    const auto                  claim = [&](const LatticeIndex<dim> &cell) {
+      for (unsigned int c = 0; c < n_corners; ++c)
+        {
+          LatticeIndex<dim> node = cell;
+          for (int d = 0; d < dim; ++d)
+            node[d] += static_cast<int>((c >> d) & 1u);
+          reached[window.node_number(node)] = 1;
+        }
+    };
     for (unsigned int v = 0; v < n_vertices(); ++v)
       {
         if (!stays[v])
           continue;
-        const LatticeIndex<dim> cell = root_cell(mesh().vertices[v], filling, search_radius);
-        for (unsigned int c = 0; c < n_corners; ++c)
-          {
-            LatticeIndex<dim> node = cell;
-            for (int d = 0; d < dim; ++d)
-              node[d] += static_cast<int>((c >> d) & 1u);
-            reached[window.node_number(node)] = 1;
-          }
+        claim(root_cell(mesh().vertices[v], filling, search_radius));
+        // what lies on a facet between vertices
+        const LatticeIndex<dim> here = patch.grid().lattice().cell_of(mesh().vertices[v]);
+        if (around.insert(here).second)
+          for (unsigned int k = 0; k < (dim == 2 ? 9u : 27u); ++k)
+            {
+              LatticeIndex<dim> cell = here;
+              unsigned int      rest = k;
+              for (int d = 0; d < dim; ++d, rest /= 3)
+                cell[d] += static_cast<int>(rest % 3) - 1;
+              if (window.contains_cell(cell) && filling[window.cell_number(cell)] > 0.)
+                claim(cell);
+            }
       }
   }
 
@@ -196,29 +212,69 @@ namespace kedge
           continue;
         const auto [entry, is_new] =
           number_of_cell.emplace(window.cell_number(cell), static_cast<unsigned int>(roots.size()));
-        root_of_vertex[v] = entry->second;
         if (is_new)
-          roots.emplace_back();
-        for (unsigned int c = 0; c < n_corners; ++c)
           {
-            LatticeIndex<dim> node   = cell;
-            double            weight = 1.;
-            for (int d = 0; d < dim; ++d)
-              {
-                const double s  = lattice.scaled(x[d], d) - cell[d];
-                const bool   up = (c >> d) & 1u;
-                node[d] += up;
-                weight *= up ? s : 1. - s;
-              }
-            weights[v][c] = weight;
-            if (is_new)
-              {
-                const int local = patch.nodes.local(window.node_number(node));
-                AssertThrow(local >= 0, dealii::ExcInternalError());
-                roots.back()[c] = static_cast<unsigned int>(local);
-              }
+            roots.push_back(root_of(cell));
+            AssertThrow(roots.back().is_known, dealii::ExcInternalError());
           }
+        root_of_vertex[v] = entry->second;
+        weights[v]        = roots[entry->second].functions(lattice, x);
       }
+    has_points.resize(filling.size());
+    for (std::size_t cell = 0; cell < filling.size(); ++cell)
+      has_points[cell] = filling[cell] > 0.;
+  }
+
+
+
+  template <int dim>
+  std::array<double, BodySurface<dim>::n_corners>
+  BodySurface<dim>::Root::functions(const Lattice<dim> &lattice, const dealii::Point<dim> &x) const
+  {
+    std::array<double, n_corners> result;
+    result.fill(1.);
+    for (int d = 0; d < dim; ++d)
+      {
+        const double s = lattice.scaled(x[d], d) - cell[d];
+        for (unsigned int c = 0; c < n_corners; ++c)
+          result[c] *= (c >> d) & 1u ? s : 1. - s;
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  typename BodySurface<dim>::Root
+  BodySurface<dim>::root_of(const LatticeIndex<dim> &cell) const
+  {
+    const auto &grid   = patch.grid();
+    Root        result = {cell, {}, false, true};
+    result.is_own =
+      grid.cell_owner(cell) == dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+    for (unsigned int c = 0; c < n_corners; ++c)
+      {
+        LatticeIndex<dim> node = cell;
+        for (int d = 0; d < dim; ++d)
+          node[d] += static_cast<int>((c >> d) & 1u);
+        const int local = patch.nodes.local(grid.window().node_number(node));
+        result.is_known = result.is_known && local >= 0;
+        result.nodes[c] = static_cast<unsigned int>(std::max(local, 0));
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  typename BodySurface<dim>::Root
+  BodySurface<dim>::root_at(const LatticeIndex<dim> &cell, const unsigned int nearest_vertex) const
+  {
+    const auto &window = patch.window();
+    if (window.contains_cell(cell) && has_points[window.cell_number(cell)])
+      return root_of(cell);
+    const unsigned int known = root_of_vertex[nearest_vertex];
+    return known == elsewhere ? Root{} : roots[known];
   }
 
 

@@ -1,6 +1,7 @@
 #include <kedge/surfaces/facet_part.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kedge
 {
@@ -136,6 +137,37 @@ namespace kedge
 
 
   template <int dim>
+  const std::vector<FacetQuadraturePoint<dim>> &
+  facet_quadrature()
+  {
+    static const std::vector<FacetQuadraturePoint<dim>> points = [] {
+      std::vector<FacetQuadraturePoint<dim>> result;
+      if constexpr (dim == 2)
+        for (const int side : {-1, 0, 1})
+          {
+            const double s = 0.5 * (1. + side * std::sqrt(0.6));
+            result.push_back({{{1. - s, s}}, side == 0 ? 8. / 18. : 5. / 18.});
+          }
+      else
+        for (const int side : {-1, 1})
+          {
+            // of the weight 2 (1 - r): how much of the triangle lies at a distance r from its
+            // base
+            const double r = 0.4 - side * std::sqrt(0.06), weight = 0.25 + side / std::sqrt(216.);
+            for (const int across : {-1, 1})
+              {
+                const double s = 0.5 * (1. + across / std::sqrt(3.)) * (1. - r);
+                result.push_back({{{1. - r - s, s, r}}, weight});
+              }
+          }
+      return result;
+    }();
+    return points;
+  }
+
+
+
+  template <int dim>
   dealii::Point<dim>
   place_on_facet(const std::array<dealii::Point<dim>, dim> &corners,
                  const typename FacetPart<dim>::Weights    &weights)
@@ -234,17 +266,18 @@ namespace kedge
     return to_cut;
   }
 
-#define KEDGE_INSTANTIATE(dim)                                 \
-  template struct FacetPart<dim>;                              \
-  template dealii::Point<dim> place_on_facet<dim>(             \
-    const std::array<dealii::Point<dim>, std::size_t(dim)> &,  \
-    const std::array<double, std::size_t(dim)> &);             \
-  template std::vector<FacetPart<dim>> parts_where<dim>(       \
-    const Expression &,                                        \
-    const std::array<dealii::Point<dim>, std::size_t(dim)> &); \
-  template std::vector<FacetPart<dim>> cut_to_cells<dim>(      \
-    const Lattice<dim> &,                                      \
-    const std::array<dealii::Point<dim>, std::size_t(dim)> &,  \
+#define KEDGE_INSTANTIATE(dim)                                                           \
+  template struct FacetPart<dim>;                                                        \
+  template const std::vector<FacetQuadraturePoint<dim>> &facet_quadrature<dim>();        \
+  template dealii::Point<dim>                            place_on_facet<dim>(            \
+    const std::array<dealii::Point<dim>, std::size_t(dim)> &, \
+    const std::array<double, std::size_t(dim)> &);            \
+  template std::vector<FacetPart<dim>> parts_where<dim>(                                 \
+    const Expression &,                                                                  \
+    const std::array<dealii::Point<dim>, std::size_t(dim)> &);                           \
+  template std::vector<FacetPart<dim>> cut_to_cells<dim>(                                \
+    const Lattice<dim> &,                                                                \
+    const std::array<dealii::Point<dim>, std::size_t(dim)> &,                            \
     const FacetPart<dim> &);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

@@ -11,48 +11,6 @@ namespace kedge
 {
   namespace
   {
-    /** A place and its weight on a line or a triangle. */
-    template <int dim>
-    struct QuadraturePoint
-    {
-      std::array<double, dim> place; ///< weights of the corners
-      double                  weight;
-    };
-
-    /**
-     * Gauss points exact for polynomials of degree 5 on a line, 3 on a triangle (Gauss points of
-     * two lines, one drawn together to a corner; Stroud 1971): the product of a cell's functions on
-     * a plane.
-     */
-    template <int dim>
-    const std::vector<QuadraturePoint<dim>> &
-    quadrature()
-    {
-      static const std::vector<QuadraturePoint<dim>> points = [] {
-        std::vector<QuadraturePoint<dim>> result;
-        if constexpr (dim == 2)
-          for (const int side : {-1, 0, 1})
-            {
-              const double s = 0.5 * (1. + side * std::sqrt(0.6));
-              result.push_back({{{1. - s, s}}, side == 0 ? 8. / 18. : 5. / 18.});
-            }
-        else
-          for (const int side : {-1, 1})
-            {
-              // of the weight 2 (1 - r): how much of the triangle lies at a distance r from its
-              // base
-              const double r = 0.4 - side * std::sqrt(0.06), weight = 0.25 + side / std::sqrt(216.);
-              for (const int across : {-1, 1})
-                {
-                  const double s = 0.5 * (1. + across / std::sqrt(3.)) * (1. - r);
-                  result.push_back({{{1. - r - s, s, r}}, weight});
-                }
-            }
-        return result;
-      }();
-      return points;
-    }
-
     /** The material points of a body, by cells. */
     template <int dim>
     class PointsOfBody
@@ -162,7 +120,7 @@ namespace kedge
     choose_parts(result);
     std::vector<PlaceOfSurface<dim>> places;
     for (const Part &part : result.parts)
-      for (const auto &gauss : quadrature<dim>())
+      for (const auto &gauss : facet_quadrature<dim>())
         places.push_back({place_on_facet<dim>(surface.corners_at_start(part.facet),
                                               part.covered.place(gauss.place)),
                           gauss.weight * part.covered.fraction() * part.area});
@@ -258,7 +216,7 @@ namespace kedge
           {
             const auto   cell     = lattice.cell_of(place_below<dim>(lattice, corners, piece));
             const double fraction = piece.fraction();
-            for (const auto &gauss : quadrature<dim>())
+            for (const auto &gauss : facet_quadrature<dim>())
               {
                 const auto        weights = piece.place(gauss.place);
                 SurfacePoint<dim> point{};

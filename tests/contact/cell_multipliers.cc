@@ -39,18 +39,23 @@ namespace
 /** Worked by hand: gaps (lambda - p)/eps of the first cell -0.2, 0.1 with areas 1, 2, mean 0. */
 TEST(CellMultipliers, TakeTheMeanGapOfTheirCell)
 {
-  const Lattice<2>   lattice = lattice_of_two_cells();
-  const ContactLaw   law     = law_at_rest();
-  CellMultipliers<2> cells(lattice);
-  cells.add({0.2, 0.5}, 1., law, 3., {}, pressed_by(5.));
-  cells.add({0.8, 0.5}, 2., law, 3., {}, pressed_by(2.));
-  cells.add({0.5, 0.5}, 5., law, 4., {}, pressed_by(0.)); // has parted
-  cells.add({1.5, 0.5}, 1., law, 1., {}, pressed_by(1.5));
-  EXPECT_NEAR(cells.updated(0), 3., 1e-14);
-  EXPECT_NEAR(cells.updated(1), 3., 1e-14);
-  EXPECT_EQ(cells.updated(2), 0.);
-  EXPECT_NEAR(cells.updated(3), 1.5, 1e-14); // alone in its cell: Uzawa's own step
+  const Lattice<2>                    lattice = lattice_of_two_cells();
+  const ContactLaw                    law     = law_at_rest();
+  CellMultipliers<2>                  cells(lattice);
+  std::array<double, 4>               pressures = {{3., 3., 4., 1.}};
+  std::array<dealii::Tensor<1, 2>, 4> slips;
+  slips[2][0] = 0.1;
+  cells.add({0.2, 0.5}, 1., law, pressures[0], slips[0], pressed_by(5.));
+  cells.add({0.8, 0.5}, 2., law, pressures[1], slips[1], pressed_by(2.));
+  cells.add({0.5, 0.5}, 5., law, pressures[2], slips[2], pressed_by(0.)); // has parted
+  cells.add({1.5, 0.5}, 1., law, pressures[3], slips[3], pressed_by(1.5));
   EXPECT_NEAR(cells.largest_violation(), 0.05, 1e-14);
+  cells.update();
+  EXPECT_NEAR(pressures[0], 3., 1e-14);
+  EXPECT_NEAR(pressures[1], 3., 1e-14);
+  EXPECT_EQ(pressures[2], 0.);
+  EXPECT_NEAR(pressures[3], 1.5, 1e-14); // alone in its cell: Uzawa's own step
+  EXPECT_EQ(slips[2][0], 0.1);           // it may press again in this step
 }
 
 TEST(CellMultipliers, WhatSticksMustNotCreep)
@@ -61,7 +66,10 @@ TEST(CellMultipliers, WhatSticksMustNotCreep)
   response.sticks             = true;
   response.slip_end[0]        = 0.7;
   dealii::Tensor<1, 2> slip_n;
-  slip_n[0] = 0.4;
-  cells.add({0.2, 0.5}, 1., law_at_rest(), 2., slip_n, response);
+  slip_n[0]       = 0.4;
+  double pressure = 2.;
+  cells.add({0.2, 0.5}, 1., law_at_rest(), pressure, slip_n, response);
   EXPECT_NEAR(cells.largest_violation(), 0.3, 1e-15);
+  cells.update();
+  EXPECT_EQ(slip_n[0], 0.7);
 }

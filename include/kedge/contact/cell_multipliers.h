@@ -4,6 +4,7 @@
 #include <kedge/contact/contact_law.h>
 #include <kedge/grid/lattice.h>
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -30,31 +31,32 @@ namespace kedge
      * Takes the answer of a place.
      *
      * @param area       that it stands for [m^2; m in 2D]
-     * @param multiplier lambda [Pa]
-     * @param slip_n     e_0 [m]
+     * @param multiplier lambda; update() changes it [Pa]
+     * @param slip       e_0, likewise [m]
      */
     void
-    add(const dealii::Point<dim>     &place,
-        const double                  area,
-        const ContactLaw             &law,
-        const double                  multiplier,
-        const dealii::Tensor<1, dim> &slip_n,
-        const ContactResponse<dim>   &response);
+    add(const dealii::Point<dim>   &place,
+        const double                area,
+        const ContactLaw           &law,
+        double                     &multiplier,
+        dealii::Tensor<1, dim>     &slip,
+        const ContactResponse<dim> &response);
 
     /** The largest mean gap of a cell, or creep of a place that sticks [m]. */
     double
     largest_violation() const;
 
-    /** The multiplier of the place that was added as number @p n [Pa]. */
-    double
-    updated(const std::size_t n) const;
+    /** Gives all places their new multipliers, and those that press the slips that hold them. */
+    void
+    update() const;
 
   private:
     struct Place
     {
-      LatticeIndex<dim> cell;
-      bool              presses;
-      double            multiplier, stiffness;
+      LatticeIndex<dim>       cell;
+      bool                    presses;
+      double                 *multiplier, stiffness;
+      dealii::Tensor<1, dim> *slip, slip_end;
     };
 
     /** Sums over the places of a cell that press. */
@@ -68,6 +70,34 @@ namespace kedge
     std::map<LatticeIndex<dim>, Sums> sums;
     double                            largest_creep = 0.;
   };
+  /**
+   * Uzawa's step of a contact at rest.
+   *
+   * @param sides     what may not be pressed by the same multipliers
+   * @param add_side  add_side(side, cells) adds the places of a side
+   * @param tolerance of gaps and creep [m]
+   * @return false, and nothing is changed, if no violation is larger than that
+   */
+  template <int dim, class Sides, typename AddSide>
+  bool
+  update_multipliers(Sides              &sides,
+                     const Lattice<dim> &lattice,
+                     const double        tolerance,
+                     const AddSide      &add_side)
+  {
+    std::vector<CellMultipliers<dim>> cells(sides.size(), CellMultipliers<dim>(lattice));
+    double                            largest = 0.;
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      {
+        add_side(sides[k], cells[k]);
+        largest = std::max(largest, cells[k].largest_violation());
+      }
+    if (largest <= tolerance)
+      return false;
+    for (const auto &of_side : cells)
+      of_side.update();
+    return true;
+  }
 } // namespace kedge
 
 #endif

@@ -41,6 +41,7 @@ namespace kedge
   {
     unsigned int           partner = 0; ///< facet
     dealii::Tensor<1, dim> normal;
+    double                 lead = 0.; ///< carried gap, less what the facets' middles have made it
   };
 
   /** What the facets of a surface carry, by facet. */

@@ -1,9 +1,11 @@
 #ifndef kedge_contact_surface_samples_h
 #define kedge_contact_surface_samples_h
 
+#include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/closed_contact.h>
 #include <kedge/contact/shear_limit.h>
 #include <kedge/surfaces/body_surface.h>
+#include <kedge/surfaces/facet_means.h>
 #include <kedge/surfaces/facet_search.h>
 
 namespace kedge
@@ -22,9 +24,12 @@ namespace kedge
       , clay(clay)
     {}
 
-    /** Takes the displacements over the step; the mesh is then where @p part of them leads to. */
+    /**
+     * Takes the displacements over the step, @p factor times those of a nodal vector; the mesh is
+     * then where @p part of them leads to (collective).
+     */
     void
-    move(const std::vector<dealii::Tensor<1, dim>> &displacements, const double part);
+    move(const std::vector<double> &nodal, const double factor, const double part);
 
     const BodySurface<dim>             &surface;
     const bool                          carries_water;
@@ -35,13 +40,18 @@ namespace kedge
     SurfaceMesh<dim>                    mesh;           ///< in the configuration of the balance
     SurfaceMesh<dim>                    end;            ///< at the end of the step
     std::vector<dealii::Tensor<1, dim>> displacements;  ///< of the vertices over the step [m]
+    std::vector<double>                 nodal;          ///< of the local nodes, the same [m]
+    FacetMeans<dim>                     means;          ///< over the facets at the step's start
   };
 
   /**
-   * The middles of a surface's facets as points of contact with another surface: one of the two
-   * halves of a contact, of which each bears half of the load. Where a sample meets the other
+   * A surface's facets as places of contact with another surface: one of the two halves of a
+   * contact, of which each bears half of the load. Where the middle of a facet meets the other
    * surface, in which direction, and how large the gap was at the start of the step, is found
-   * once and then held fixed, so that the law depends on the relative displacement alone.
+   * once and then held fixed, so that the law depends on the relative displacement alone: the mean
+   * over the facet of what both bodies do there, the other one on the facet laid on its surface,
+   *   D = (1/A) int (sum_I N_I u_I - sum_J N_J u_J) da.
+   * So the load of a facet comes to the nodes as int N da has it, wherever the grid's lines are.
    *
    * In conserving steps the gap of a closed sample is not measured anew but carried on, g_1 = g_0 +
    * s.D: the energy stored in it then changes by what the pressure has done and by nothing else.
@@ -59,24 +69,20 @@ namespace kedge
       typename FacetSearch<dim>::Partner partner;
       dealii::Tensor<1, dim>             gap_slope;   ///< s
       double                             gap_n;       ///< g_0 [m]
-      dealii::Tensor<1, dim>             slip_n;      ///< e_0 [m]
-      double                             multiplier;  ///< [Pa]
-      double                             area;        ///< that it stands for [m^2; m in 2D]
-      double                             shear_limit; ///< there, per area at the start [Pa]
-      double                             stretch;     ///< of its area since the start
+      double                             lead_n = 0.; ///< g_0 less that of the middle's ways [m]
+      /** e_0; at rest the slip that holds it as if it stretched a spring of the law's stiffness,
+       * as Uzawa's iteration finds it, and what presses it [m], [Pa]. */
+      dealii::Tensor<1, dim> slip_n;
+      double                 multiplier;
+      double                 area;        ///< that it stands for [m^2; m in 2D]
+      double                 shear_limit; ///< there, per area at the start [Pa]
+      double                 stretch;     ///< of its area since the start
+      MeanFunctions          on_partner;  ///< of the other body's nodes
+      dealii::Tensor<1, dim> D;           ///< relative displacement over the step [m]
     };
 
     /** What is committed of a sample that is closed, or that cannot yet be measured as open. */
     using Memory = PartneredContact<dim>;
-
-    /** What Uzawa's iteration has found for a sample at rest: what presses it, and the slip that
-     * holds it, as if it stretched a spring of the law's stiffness. */
-    struct Multipliers
-    {
-      double                 pressure; ///< [Pa]
-      dealii::Tensor<1, dim> slip;     ///< [m]
-      dealii::Tensor<1, dim> normal;   ///< across which the slip is
-    };
 
     /** What became of a sample. */
     struct Outcome
@@ -111,8 +117,9 @@ namespace kedge
     void
     find();
 
-    /** The same in the course of a step: they keep the multipliers that they have. */
-    void
+    /** The same in the course of a step: they keep the multipliers that they have.
+     * @return the samples before */
+    std::vector<Sample>
     find_anew();
 
     /** The box around the sampled surface in the configuration of the moved meshes. */
@@ -126,9 +133,9 @@ namespace kedge
       samples_.swap(others);
     }
 
-    /** Takes multipliers by facet; what is not named has no pressure. */
+    /** Adds the samples to an update of their multipliers. */
     void
-    set_multipliers(const std::map<unsigned int, Multipliers> &values);
+    for_multipliers(CellMultipliers<dim> &cells);
 
     const std::vector<Sample> &
     samples() const
@@ -136,9 +143,16 @@ namespace kedge
       return samples_;
     }
 
-    /** Relative displacement of a sample over the step. */
-    dealii::Tensor<1, dim>
-    relative_displacement(const Sample &sample) const;
+    /** Takes the samples' relative displacements from the moved surfaces (collective). */
+    void
+    read_displacements();
+
+    /** Mean functions of the sampled body's nodes over a sample's facet. */
+    const MeanFunctions &
+    on_sampled(const Sample &sample) const
+    {
+      return sampled.means.of(sample.facet);
+    }
 
     /** Whether what a sample adds to the tangent is this rank's to add; all know all samples. */
     bool
@@ -191,7 +205,7 @@ namespace kedge
                               sample.gap_n,
                               sample.slip_n,
                               sample.multiplier,
-                              relative_displacement(sample),
+                              sample.D,
                               pore_pressure(sample));
     }
 
@@ -285,7 +299,13 @@ namespace kedge
     static constexpr double largest_tilt = 0.01;
 
     bool
+    find_sample(const unsigned int facet, const FacetSearch<dim> &search, Sample &sample);
+    MeanFunctions
+    functions_on_partner(const Sample &sample) const;
+    bool
     set_start(Sample &sample) const;
+    dealii::Tensor<1, dim>
+    displacement_of_middle(const Sample &sample) const;
     double
     shear_limit_at(const Sample &sample) const;
     void

@@ -6,6 +6,7 @@
 #include <kedge/contact/shear_limit.h>
 #include <kedge/contact/wall_term.h>
 #include <kedge/rigid/rigid_bodies.h>
+#include <kedge/surfaces/facet_means.h>
 #include <kedge/surfaces/facet_search.h>
 
 #include <limits>
@@ -34,11 +35,11 @@ namespace kedge
   }
 
   /**
-   * The middles of the facets of a body's surface as points of contact with a rigid body. The rigid
-   * body's facets stand in an R-tree in its own axes, made once. Where a sample meets them, in
-   * which direction and from which gap on is found in the configuration of the balance and then
-   * held fixed; gaps of closed samples are carried on, along a slope tilted to what will be
-   * measured, as SurfaceSamples does.
+   * The facets of a body's surface as places of contact with a rigid body, which move as the mean
+   * over the facet. The rigid body's facets stand in an R-tree in its own axes, made once. Where a
+   * sample meets them, in which direction and from which gap on is found in the configuration of
+   * the balance and then held fixed; gaps of closed samples are carried on, along a slope tilted to
+   * what will be measured, as SurfaceSamples does.
    */
   template <int dim>
   class ToolSamples
@@ -52,11 +53,13 @@ namespace kedge
       dealii::Tensor<1, dim> normal;          ///< of the tool, outward
       dealii::Tensor<1, dim> gap_slope;       ///< s
       double                 gap        = 0.; ///< g_0 [m]
+      double                 lead       = 0.; ///< g_0 less that of the middle's ways [m]
       double                 multiplier = 0.; ///< [Pa]
       dealii::Tensor<1, dim> slip;            ///< e_0 [m]
       double                 area;
       double                 shear_limit; ///< there, per area at the start of the run [Pa]
       double                 stretch;     ///< of its area since then
+      dealii::Tensor<1, dim> moves_by;    ///< in the step, the mean over the facet [m]
     };
 
     /** What a sample carries from step to step while it is closed. */
@@ -81,9 +84,25 @@ namespace kedge
     void
     read_strengths();
 
-    /** Takes displacements of the surface over the step: those of @p nodal (collective). */
+    /** Takes displacements of the surface over the step: those of @p nodal, none if it is empty
+     * (collective). */
     void
     move(const std::vector<double> &nodal);
+
+    /** Begins a step: the surface has moved. */
+    void
+    begin_step()
+    {
+      means.reset(*body.surface);
+      samples.clear();
+    }
+
+    /** Mean functions of the body's nodes over a sample's facet. */
+    const MeanFunctions &
+    functions(const Sample &sample) const
+    {
+      return means.of(sample.facet);
+    }
 
     /** Takes the pore pressures of the balance (collective). */
     void
@@ -105,6 +124,14 @@ namespace kedge
     dealii::Tensor<1, dim>
     displacement(const Sample &sample) const;
 
+    /** Carried gap at the end of the step less that of the middle's ways [m]. */
+    double
+    lead_at_end(const Sample &sample) const
+    {
+      return sample.lead +
+             sample.gap_slope * (sample.moves_by - displacement_of_middle(sample.facet));
+    }
+
     ContactResponse<dim>
     response(const Sample &sample) const;
 
@@ -122,7 +149,7 @@ namespace kedge
     dealii::Point<dim>
     place_at_balance(const Sample &sample) const
     {
-      return sample.place + bodies.alpha * surface_displacement(sample.facet);
+      return sample.place + bodies.alpha * sample.moves_by;
     }
 
     double
@@ -184,8 +211,10 @@ namespace kedge
 
     Pose
     pose(const double part) const;
+    void
+    read_displacements();
     dealii::Tensor<1, dim>
-    surface_displacement(const unsigned int facet) const;
+    displacement_of_middle(const unsigned int facet) const;
     bool
     find_partner(const unsigned int                  facet,
                  const double                        part,
@@ -203,9 +232,11 @@ namespace kedge
     const FacetSearch<dim>             &search;
     const ShearLimit<dim>              &limit;
     const double                        reach, depth;
-    double                              radius;         ///< of a ball around the tool's centre [m]
-    std::vector<double>                 strengths;      ///< at the vertices; empty: none [Pa]
-    std::vector<dealii::Tensor<1, dim>> displacements;  ///< of the vertices
+    double                              radius;        ///< of a ball around the tool's centre [m]
+    std::vector<double>                 strengths;     ///< at the vertices; empty: none [Pa]
+    std::vector<dealii::Tensor<1, dim>> displacements; ///< of the vertices
+    std::vector<double>                 nodal;         ///< displacements [m]
+    FacetMeans<dim>                     means;
     std::vector<double>                 pore_pressures; ///< of the vertices [Pa]
   };
 } // namespace kedge

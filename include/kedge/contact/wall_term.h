@@ -5,9 +5,10 @@
 #include <kedge/base/load_program.h>
 #include <kedge/contact/closed_contact.h>
 #include <kedge/contact/contact_picture.h>
+#include <kedge/contact/coupling_sum.h>
 #include <kedge/contact/shear_limit.h>
 #include <kedge/equations/term.h>
-#include <kedge/surfaces/body_surface.h>
+#include <kedge/surfaces/facet_means.h>
 
 namespace kedge
 {
@@ -59,9 +60,9 @@ namespace kedge
   };
 
   /**
-   * Contact of bodies with a rigid plane, which may move: the middles of a surface's facets that
-   * look towards it are samples, and the law is contact_response() with the displacement of the
-   * sample less that of the wall over the step, w,
+   * Contact of bodies with a rigid plane, which may move: a surface's facets that look towards it
+   * are samples, and the law is contact_response() with the mean displacement of the facet less
+   * that of the wall over the step, w,
    *   R -= sum of A B^T (p n + t),   D = B u - w.
    * The gap n.(x - x_wall) is linear in D, so that the carried gap of conserving steps is the
    * measured one. The wall's work is sum of A (p n + t).w. Without inertia the pressures are found
@@ -152,37 +153,34 @@ namespace kedge
       double             area;             ///< at the start of the run
       double             shear_limit = 0.; ///< there, per area at the start of the run [Pa]
       double             stretch     = 1.; ///< of its area since then
+
+      dealii::Tensor<1, dim> D = {}; ///< displacement over the step, mean over the facet [m]
     };
 
     struct Side
     {
-      const BodySurface<dim>             *surface;
-      ContactLaw                          law;
-      bool                                carries_water;
-      const Material                     *clay;
-      std::vector<double>                 strengths; ///< of the vertices, s_u; empty: none [Pa]
-      std::vector<Sample>                 samples;
-      std::vector<dealii::Tensor<1, dim>> displacements;  ///< of the vertices
-      std::vector<double>                 pore_pressures; ///< of the vertices, of the balance [Pa]
-      Memory                              memory, end_of_step;
+      const BodySurface<dim> *surface;
+      ContactLaw              law;
+      bool                    carries_water;
+      const Material         *clay;
+      std::vector<double>     strengths; ///< of the vertices, s_u; empty: none [Pa]
+      std::vector<Sample>     samples;
+      FacetMeans<dim>         means;
+      std::vector<double>     pore_pressures; ///< of the vertices, of the balance [Pa]
+      Memory                  memory, end_of_step;
     };
 
     void
     find(Side &side) const;
     void
     move(const Trial<dim> &trial);
-    dealii::Tensor<1, dim>
-    displacement(const Side &side, const Sample &sample) const;
-    dealii::Tensor<1, dim>
-    relative_displacement(const Side &side, const Sample &sample) const
-    {
-      return displacement(side, sample) - moves_by;
-    }
     WallPlane<dim>
     plane_at(const double t) const
     {
       return {plane_at_rest.point + motion.displacement(t), plane_at_rest.normal};
     }
+    typename CouplingSum<dim>::Coefficients
+    pressure_functions(const Side &side, const Sample &sample) const;
     ContactResponse<dim>
     response(const Side &side, const Sample &sample) const;
     static double

@@ -154,10 +154,30 @@ namespace kedge
     {
       if (root_of_vertex[vertex] == elsewhere)
         return;
-      const auto &corners = roots[root_of_vertex[vertex]];
+      const auto &nodes = roots[root_of_vertex[vertex]].nodes;
       for (unsigned int c = 0; c < n_corners; ++c)
-        visit(corners[c], weights[vertex][c]);
+        visit(nodes[c], weights[vertex][c]);
     }
+
+    /** A cell whose functions say how a place on the surface moves. */
+    struct Root
+    {
+      LatticeIndex<dim>                   cell;
+      std::array<unsigned int, n_corners> nodes;    ///< local numbers
+      bool                                is_own;   ///< whether it is this rank's
+      bool                                is_known; ///< whether this rank knows its nodes
+
+      /** Its functions, continued beyond it. */
+      std::array<double, n_corners>
+      functions(const Lattice<dim> &lattice, const dealii::Point<dim> &x) const;
+    };
+
+    /**
+     * The root of a place in a cell: the cell if points of the body are in it (nodes that it fills
+     * badly are tied, so that a sliver moves as its root does), else that of a vertex.
+     */
+    Root
+    root_at(const LatticeIndex<dim> &cell, const unsigned int nearest_vertex) const;
 
     /** Adds a force on a vertex to nodal sums of the patch's components per local node. */
     void
@@ -194,8 +214,6 @@ namespace kedge
     const Patch<dim>  &patch;
 
   private:
-    using Corners = std::array<unsigned int, n_corners>;
-
     /** The root of a vertex whose nodes are not known to this rank. */
     static constexpr unsigned int elsewhere = static_cast<unsigned int>(-1);
 
@@ -205,6 +223,8 @@ namespace kedge
     let_out(const std::vector<double> &filling);
     std::vector<bool>
     vertices_that_stay() const;
+    Root
+    root_of(const LatticeIndex<dim> &cell) const;
     LatticeIndex<dim>
     root_cell(const dealii::Point<dim>  &x,
               const std::vector<double> &filling,
@@ -215,7 +235,8 @@ namespace kedge
     CarriedSurface<dim>                        committed, moved;
     FacetHeritage                              heritage_;
     unsigned int                               generation_ = 0;
-    std::vector<Corners>                       roots; ///< local nodes of the root cells in use here
+    std::vector<Root>                          roots;      ///< of vertices, in use here
+    std::vector<bool>                          has_points; ///< cells of the window, of the body
     std::vector<unsigned int>                  root_of_vertex;
     std::vector<bool>                          is_own; ///< by vertex: the root cell is this rank's
     bool                                       is_known = false; ///< claimed: roots of all vertices

@@ -29,6 +29,23 @@ namespace kedge
     place(const Weights &own) const;
   };
 
+  /** A place on a part of a facet, and its share of the area. */
+  template <int dim>
+  struct FacetQuadraturePoint
+  {
+    typename FacetPart<dim>::Weights place; ///< weights of the part's corners
+    double                           weight;
+  };
+
+  /**
+   * Gauss points exact for polynomials of degree 5 on a line, 3 on a triangle (Gauss points of
+   * two lines, one drawn together to a corner; Stroud 1971): the product of a cell's functions on
+   * a plane.
+   */
+  template <int dim>
+  const std::vector<FacetQuadraturePoint<dim>> &
+  facet_quadrature();
+
   /** Where weights lead on a facet with the given corners [m]. */
   template <int dim>
   dealii::Point<dim>
