@@ -45,6 +45,10 @@ GALLERY = [
      ("--only", "contact", "--view", "-20", "25", "-n", "3"), "contact"),
     ("A prism slides: pressures on both surfaces", "prm/prism_sliding.prm", (),
      ("--only", "contact", "-n", "6"), "contact"),
+    ("Two saturated discs collide: pore pressure", "prm/saturated_impact.prm", (),
+     ("--only", "body", "-f", "pore_pressure", "-t", "1", "1.4", "2"), "body-pore_pressure"),
+    ("Their energies and the error of their books", "prm/saturated_impact.prm", (),
+     ("--only", "histories"), "energies"),
 ]
 
 

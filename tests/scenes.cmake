@@ -350,7 +350,7 @@ kedge_add_scene_test(refusal.drive_and_resume prm/paths/simple_shear.prm
   OPTIONS --drive --resume EXPECT_EXIT 1 EXPECT_STDERR "neither --resume nor" LABELS refusal)
 kedge_add_refusal_test(missing_file "missing_file\\.prm.*No such file")
 kedge_add_scene_test(refusal.soil_scheme prm/terzaghi.prm
-  SET "Time/Scheme = clc-midpoint" EXPECT_EXIT 1
+  SET "Time/Scheme = generalised-alpha" EXPECT_EXIT 1
   EXPECT_STDERR "Time/Scheme.*Saturated bodies" LABELS refusal)
 kedge_add_scene_test(refusal.empty_load prm/terzaghi.prm SET "Tractions/load/Traction = "
   EXPECT_EXIT 1 EXPECT_STDERR "neither a Traction nor a Pressure" LABELS refusal)

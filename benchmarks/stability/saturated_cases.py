@@ -1,4 +1,6 @@
 """The saturated part of the stability bench's matrix."""
+from dataclasses import replace
+
 from case import BASES, Case, basis, constants
 
 CUTS = ["1e-6", "1e-4", "1e-2", "0.2"]
@@ -105,7 +107,17 @@ def squeezed():
                         kind, short=kind == "linear", group="sat. squeezed")
 
 
+def conserved(case):
+    """A case of the u-p equations in the scheme that conserves."""
+    settings = {name: value for name, value in case.settings.items() if "Newmark" not in name}
+    return replace(case, group=case.group.replace("sat.", "con."),
+                   name=case.name.replace("newmark", "clc-midpoint"),
+                   settings={**settings, "Time/Scheme": "clc-midpoint"}, conserving=True)
+
+
 def saturated_cases():
-    """Every saturated case, in order."""
+    """Every saturated case, in order; those in motion with the conserving scheme too."""
     parts = [cuts, undrained, conductivities, steps, free, squeezed]
-    return [case for part in parts for case in part()]
+    cases = [case for part in parts for case in part()]
+    return cases + [conserved(case) for case in cases
+                    if "newmark" in case.name and "coarse" not in case.name]

@@ -365,7 +365,8 @@ namespace kedge
     for (unsigned int i = 0; i < window_ties.size() && !changed_; ++i)
       changed_ = window_ties[i].node != ties_before[i].node ||
                  window_ties[i].components != ties_before[i].components ||
-                 window_ties[i].roots != ties_before[i].roots;
+                 window_ties[i].roots != ties_before[i].roots ||
+                 window_ties[i].weights != ties_before[i].weights;
     if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
       changed_ = dealii::Utilities::MPI::logical_or(changed_, grid.communicator());
   }

@@ -42,6 +42,8 @@ namespace kedge
       }
     if (!surfaces.empty())
       columns.surface = lost("surface_dissipation");
+    if (parameters.velocity_filter > 0.)
+      columns.filter = lost("velocity_filter_dissipation");
     columns.work       = ledger.declare(external_work);
     columns.mass       = ledger.declare({"mass", "kg", Section::state});
     columns.solid_mass = ledger.declare({"solid_mass", "kg", Section::content});
@@ -104,21 +106,26 @@ namespace kedge
                          const Residual<dim> &residual,
                          Ledger              &ledger) const
   {
-    double work = 0., darcy = 0., loss = 0., torque[3] = {0., 0., 0.};
+    double work = 0., darcy = 0., loss = 0., filtered = 0., torque[3] = {0., 0., 0.};
     for (const MixtureUpdate<dim> &update : updates)
       {
         work += update.weight_work;
         darcy += update.darcy_dissipation;
         loss += update.stabilisation_loss;
+        filtered += update.filter_loss;
         for (int d = 0; d < 3; ++d)
           torque[d] += update.stabilisation_torque[d];
       }
-    const Exchange in = exchange(trial, residual);
+    Exchange in = exchange(trial, residual);
+    for (const MixtureUpdate<dim> &update : updates)
+      in.mass -= bodies.soils.front().fluid.reference_density * update.swallowed;
     ledger.book(columns.work, work + in.energy);
     ledger.book(columns.darcy, darcy);
     ledger.book(columns.inflow, in.mass);
     if (!surfaces.empty())
       ledger.book(columns.surface, in.dissipation);
+    if (parameters.velocity_filter > 0.)
+      ledger.book(columns.filter, filtered);
     if (parameters.stabilisation == 0.)
       return;
     ledger.book(columns.stabilisation, loss);

@@ -111,6 +111,7 @@ namespace kedge
           }
       r.fluid_value                            = V * (step.soil.dry_storage * trial.potential);
       r.fluid_value_slope.of[Input::potential] = V * step.soil.dry_storage;
+      r.darcy_power = step.soil.dry_storage / step.dt * trial.potential * trial.potential;
     }
 
     /** The law of the skeleton, then the fluid. */
@@ -395,7 +396,11 @@ namespace kedge
         update.fluctuation             = r.end_fluctuation[lane];
         update.porosity                = step.soil.fluid.porosity(r.end_determinant[lane]);
         update.darcy_dissipation       = volume * step.dt * r.darcy_power[lane];
+        update.swallowed               = step.soil.dry_storage > 0. ? r.fluid_value[lane] : 0.;
         update.weight_work             = volume * step.dt * r.weight_power[lane];
+        update.mass                    = volume * r.end_content[lane];
+        update.skeleton_change         = 0.;
+        update.filter_loss             = 0.;
         const double change            = update.fluctuation - trial.fluctuation_n[lane];
         update.stabilisation_loss =
           volume * step.soil.stabilisation * (step.theta - 0.5) * change * change;
@@ -403,6 +408,7 @@ namespace kedge
           {
             update.fluid_velocity[d] = r.end_fluid_velocity[d][lane];
             update.darcy_velocity[d] = r.darcy_velocity[d][lane];
+            update.relative[d]       = r.relative[d][lane];
           }
       }
 

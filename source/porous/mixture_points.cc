@@ -35,7 +35,8 @@ namespace kedge
     state.pore_pressure_fluctuation = update.fluctuation;
     state.porosity                  = update.porosity;
     state.fluid_velocity            = update.fluid_velocity;
-    state.darcy_velocity            = update.darcy_velocity;
+    state.velocity += update.skeleton_change;
+    state.darcy_velocity = update.darcy_velocity;
   }
 
   template struct MixturePoints<2>;

@@ -346,7 +346,44 @@ namespace kedge
   MixtureTerm<dim>::finish(const Trial<dim> &trial)
   {
     force.evaluate_updates(patch, points, at_trial(trial), updates);
+    if (parameters.velocity_filter > 0.)
+      filter_velocities(trial);
     return {};
+  }
+
+
+
+  /**
+   * Takes a part of what the fluid's velocity against the skeleton has beside that of the balance,
+   * which changes sign from step to step where friction is stiff: as an impact between both in one
+   * place, that keeps momenta and loses energy. Where it would not lose it is left out.
+   */
+  template <int dim>
+  void
+  MixtureTerm<dim>::filter_velocities(const Trial<dim> &trial)
+  {
+    const std::vector<double> &v_n    = trial.motion[field].velocity_n;
+    std::vector<double>        change = trial.end_velocity(scheme, field);
+    for (std::size_t k = 0; k < change.size(); ++k)
+      change[k] -= v_n[k];
+    std::vector<dealii::Tensor<1, dim>> at_points;
+    interpolate_to_points(patch, change, at_points);
+    for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
+      {
+        MixtureUpdate<dim> &update   = updates[slot];
+        const double        skeleton = patch.points.mass[slot], fluid = update.mass;
+        const auto          relative =
+          update.fluid_velocity - (patch.points.velocity[slot] + at_points[slot]);
+        const auto   taken   = parameters.velocity_filter * (relative - update.relative);
+        const double reduced = skeleton * fluid / (skeleton + fluid);
+        const double loss =
+          0.5 * reduced * (relative.norm_square() - (relative - taken).norm_square());
+        if (!(loss > 0.))
+          continue;
+        update.filter_loss     = loss;
+        update.skeleton_change = fluid / (skeleton + fluid) * taken;
+        update.fluid_velocity -= skeleton / (skeleton + fluid) * taken;
+      }
   }
 
 

@@ -5,9 +5,11 @@ namespace kedge
   template <int dim>
   OutflowTerm<dim>::OutflowTerm(const std::vector<Soil>                    &soils,
                                 const std::vector<const MotionTerm<dim> *> &motions,
+                                const bool                                  fluid_moves,
                                 const MPI_Comm                              communicator)
     : soils(soils)
     , motions(motions)
+    , fluid_moves(fluid_moves)
     , communicator(communicator)
   {}
 
@@ -57,6 +59,8 @@ namespace kedge
     for (const auto &point : gone)
       {
         const PointState<dim> &state   = point.state;
+        dealii::Tensor<1, dim> moving  = state.mass * state.velocity;
+        double                 whole   = state.mass;
         double                 carried = 0.5 * state.mass * state.velocity.norm_square() +
                          state.reference_volume * (state.strain_energy + state.hardening_energy +
                                                    state.plastic_dissipation);
@@ -66,14 +70,23 @@ namespace kedge
             const PoreFluid &fluid = soils[body].fluid;
             const double     pores =
               state.porosity * determinant(state.deformation_gradient) * state.reference_volume;
-            const double water = fluid.density(state.pore_pressure) * pores;
-            carried += water * fluid.energy(state.pore_pressure);
+            const double pressure = fluid_moves ? state.end_pore_pressure : state.pore_pressure;
+            const double water    = fluid.density(pressure) * pores;
+            carried += water * fluid.energy(pressure);
             ledger.book(fluid_mass, water);
+            if (fluid_moves)
+              {
+                carried += 0.5 * water * state.fluid_velocity.norm_square() +
+                           0.5 * state.reference_volume * soils[body].stabilisation *
+                             state.pore_pressure_fluctuation * state.pore_pressure_fluctuation;
+                moving += water * state.fluid_velocity;
+                whole += water;
+              }
           }
         ledger.book(energy, carried);
         for (int d = 0; d < dim; ++d)
-          ledger.book(momentum[d], state.mass * state.velocity[d]);
-        ledger.book(mass, state.mass);
+          ledger.book(momentum[d], moving[d]);
+        ledger.book(mass, whole);
         ledger.book(n_points, 1.);
       }
   }

@@ -164,7 +164,7 @@ namespace kedge
       const PoreFluid &fluid = step.soil.fluid;
       const Pack       V = trial.volume, Jp = V * b.J * trial.pressure;
       r.mass     = V * (step.soil.grain_density * (1. - fluid.initial_porosity) + b.rho * b.phi);
-      Pack power = 0., flow_work = 0.;
+      Pack power = 0., flow_work = 0., inertia_work = 0.;
       for (int i = 0; i < dim; ++i)
         {
           r.momentum_value[i] = r.mass * b.push[i];
@@ -172,10 +172,12 @@ namespace kedge
             r.momentum_gradient[i][R] = V * stress.stress[i][R] - Jp * b.G[R][i];
           r.darcy_velocity[i] = -b.mobility / b.rho * b.w[i];
           power -= r.darcy_velocity[i] * b.w[i];
-          flow_work -= b.rho * b.push[i] * r.darcy_velocity[i];
+          flow_work += b.rho * step.acceleration[i] * r.darcy_velocity[i];
+          inertia_work -= b.rho * trial.acceleration[i] * r.darcy_velocity[i];
         }
-      r.darcy_power    = b.J * power;
-      r.flow_work_rate = b.J * flow_work;
+      r.darcy_power       = b.J * power;
+      r.flow_work_rate    = b.J * flow_work;
+      r.inertia_work_rate = b.J * inertia_work;
       for (int R = 0; R < dim; ++R)
         r.fluid_gradient[R] = b.K * b.Gw[R];
       r.fluid_value =

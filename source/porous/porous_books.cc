@@ -36,9 +36,10 @@ namespace kedge
 
 
   /**
-   * The work is what the body force does on the mixture, f - a on the flow and the fluid
-   * that is pressed in, so that
-   *   d(kinetic + skeleton's + fluid's energy) + dissipation = work.
+   * The work is what the body force does on the mixture and the flow and the fluid that is pressed
+   * in; beside it stands the power -pi.a of the fluid's own acceleration, which the u-p equations
+   * leave out and no energy answers to:
+   *   d(kinetic + skeleton's + fluid's energy) + dissipation = work + neglected_inertia_work.
    */
   template <int dim>
   void
@@ -48,7 +49,8 @@ namespace kedge
   {
     std::vector<dealii::Tensor<1, dim>> displacement;
     interpolate_to_points(patch, trial.displacement(field), displacement);
-    double       sums[4] = {0., 0., 0., 0.}; // work, Darcy, stabilisation, known part of the inflow
+    // work, Darcy, stabilisation, known part of the inflow, work of the inertia left out
+    double       sums[5] = {0., 0., 0., 0., 0.};
     const auto   f       = loads.body_acceleration(trial.times.t_n + 0.5 * trial.times.dt);
     const auto  &soils   = porous_force.soils();
     const double factor  = porous_force.scheme().content_factor();
@@ -63,6 +65,7 @@ namespace kedge
           sums[1] += update.darcy_dissipation;
           sums[2] += update.stabilisation_work;
           sums[3] += update.known_inflow;
+          sums[4] += update.inertia_work;
         }
     const Inflow in = inflow(trial, residual);
     ledger.book(columns.inflow, (in.mass - sums[3]) / factor);
@@ -70,6 +73,8 @@ namespace kedge
     if (parameters.stabilisation > 0.)
       ledger.book(columns.stabilisation, sums[2]);
     ledger.book(columns.work, sums[0] + in.work);
+    if (scheme.dynamic)
+      ledger.book(columns.neglected, sums[4]);
   }
 
 

@@ -458,6 +458,7 @@ namespace kedge
           update.darcy_velocity[d] = r.darcy_velocity[d][lane];
         update.darcy_dissipation = volume * step.dt * r.darcy_power[lane];
         update.flow_work         = volume * step.dt * r.flow_work_rate[lane];
+        update.inertia_work      = volume * step.dt * r.inertia_work_rate[lane];
         update.known_inflow      = volume * step.dt * trial.known_rate[lane];
         // what flows at n + 1 alone, if rates are carried, flows on between the means of two steps
         update.stabilisation_work =

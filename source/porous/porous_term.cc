@@ -83,7 +83,10 @@ namespace kedge
       ledger.declare({"fluid_energy", "J", Section::energy, Kind::present, Role::stored, energy});
     columns.darcy =
       ledger.declare({"darcy_dissipation", "J", Section::energy, Kind::total, Role::lost, energy});
-    columns.work       = ledger.declare(external_work);
+    columns.work = ledger.declare(external_work);
+    if (scheme.dynamic)
+      columns.neglected = ledger.declare(
+        {"neglected_inertia_work", "J", Section::work, Kind::total, Role::supplied, energy});
     columns.solid_mass = ledger.declare({"solid_mass", "kg", Section::content});
     columns.fluid_mass =
       ledger.declare({"fluid_mass", "kg", Section::content, Kind::present, Role::stored, fluid});

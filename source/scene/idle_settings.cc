@@ -78,6 +78,17 @@ namespace kedge
                  "but with Stabilisation/Method = aggregation.");
     }
 
+    void
+    add_of_pores(const SchemeKind scheme, IdleSettings &idle)
+    {
+      if (scheme != SchemeKind::clc_midpoint)
+        idle.add({"Pore fluid"},
+                 {"Stabilisation theta", "Velocity filter"},
+                 "but with Time/Scheme = clc-midpoint.");
+      if (scheme != SchemeKind::midpoint)
+        idle.add({"Pore fluid"}, {"Theta"}, "but with Time/Scheme = midpoint.");
+    }
+
     /** Who writes a section of Contact mostly wants contact. */
     void
     add_of_contact(const ParameterReader                &reader,
@@ -105,6 +116,8 @@ namespace kedge
     add_of_time(scene.time, idle);
     add_of_inertia(scene, idle);
     add_of_stabilisation(scene.stabilisation.method, idle);
+    if (scene.pore_fluid)
+      add_of_pores(scene.time.scheme, idle);
     if (scene.equilibrium.steps == 0)
       idle.add({"Equilibrium"}, {"Duration"}, "without Equilibrium/Steps.");
     for (const auto &body : scene.bodies)

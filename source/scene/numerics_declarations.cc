@@ -121,6 +121,8 @@ namespace kedge
     NumberRange theta;
     theta.lower         = 0.5;
     theta.upper         = 1;
+    NumberRange part    = NumberRange::not_negative();
+    part.upper          = 1;
     const auto positive = allow.number(NumberRange::positive());
     return {
       "Pore fluid",
@@ -158,6 +160,12 @@ namespace kedge
         allow.number(theta).or_empty(),
         "Of the projection in the scheme clc-midpoint: 1/2 loses no energy, 1 damps pressures "
         "that alternate [-]; empty: 0.5 if all bodies are gimp, else 0.55."},
+       {"Velocity filter",
+        "0",
+        allow.number(part),
+        "In the scheme clc-midpoint: part of what the fluid's velocity against the skeleton has "
+        "beside that of the balance, and which alternates where friction is stiff, that each step "
+        "takes away; momenta stay, the energy lost is booked [-]."},
        {"Surface penalty",
         "10",
         allow.number(NumberRange::positive()),

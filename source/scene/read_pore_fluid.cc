@@ -85,6 +85,7 @@ namespace kedge
         std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyParameters<dim> &body) {
           return body.basis == BasisKind::gimp;
         });
+      pores.velocity_filter     = section.number("Velocity filter");
       pores.stabilisation_theta = !section.is_empty("Stabilisation theta")
                                     ? section.number("Stabilisation theta")
                                   : smooth ? 0.5
@@ -180,6 +181,12 @@ namespace kedge
       throw section.error("Stabilisation",
                           "It is made for Pressure space = equal; coarse needs none: leave it "
                           "empty.");
+    if (scene.bodies[0].basis == BasisKind::quadratic &&
+        scene.time.scheme == SchemeKind::clc_midpoint)
+      throw SectionReader(reader, {"Time"})
+        .error("Scheme",
+               "clc-midpoint of saturated bodies goes with linear and gimp bases, not with the "
+               "quadratic one.");
     if (!result.coarse_pressure && scene.bodies[0].basis == BasisKind::quadratic)
       throw section.error("Pressure space",
                           "With the quadratic basis of the bodies it must be coarse.");

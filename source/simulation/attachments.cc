@@ -275,6 +275,34 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** Bodies in which the linear u-p equations grow without bound (theory_mixture.md 1). */
+    template <int dim>
+    void
+    describe_growth(const Model<dim> &model, std::ostream &out)
+    {
+      if (!model.scheme.dynamic || model.scheme.carries_fluid_velocity())
+        return;
+      for (std::size_t b = 0; b < model.bodies.soils.size(); ++b)
+        {
+          const Soil      &soil  = model.bodies.soils[b];
+          const PoreFluid &fluid = soil.fluid;
+          const double     n     = fluid.initial_porosity;
+          const double     excess =
+            (1. - n) * (soil.grain_density - fluid.reference_density); // rho - rho_f
+          if (soil.dry_storage == 0. && excess < fluid.reference_density *
+                                                   p_wave_modulus(model.bodies.materials[b]) * n /
+                                                   fluid.bulk_modulus)
+            out << "  note: body '" << model.bodies.names[b]
+                << "' is so stiff against its fluid that waves grow in the u-p equations, which "
+                   "leave out the fluid's own acceleration: take Time/Scheme = clc-midpoint\n";
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   describe_attachments(const Model<dim> &model, Step<dim> &step, std::ostream &out)
@@ -282,6 +310,7 @@ namespace kedge
     const std::string hint = hint_on_points(model.scene);
     if (!hint.empty())
       out << "  note: " << hint << "\n";
+    describe_growth(model, out);
     for (const std::string &note : model.initial_stress_notes())
       out << "  note: " << note << "\n";
     describe_conditions(model, out);

@@ -21,9 +21,7 @@ namespace kedge
     , bodies(read_bodies(this->scene))
     , points(scene.grid,
              OpenSides<dim>(scene.open_sides),
-             layout_of_points<dim>(bodies,
-                                   scene.pore_fluid.has_value(),
-                                   scheme),
+             layout_of_points<dim>(bodies, scene.pore_fluid.has_value(), scheme),
              communicator)
   {
     make_fields(program);
@@ -38,7 +36,10 @@ namespace kedge
       choose_rigid_terms(program);
     choose_contact_terms(program);
     if (!scene.open_sides.empty())
-      terms.push_back(std::make_unique<OutflowTerm<dim>>(bodies.soils, motions, communicator));
+      terms.push_back(std::make_unique<OutflowTerm<dim>>(bodies.soils,
+                                                         motions,
+                                                         scheme.carries_fluid_velocity(),
+                                                         communicator));
     declare();
   }
 

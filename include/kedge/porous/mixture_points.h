@@ -27,16 +27,21 @@ namespace kedge
   template <int dim>
   struct MixtureUpdate
   {
-    double                 pressure;       ///< of the balance [Pa]
-    double                 end_pressure;   ///< [Pa]
-    double                 fluctuation;    ///< of the stabilisation [Pa]
-    double                 porosity;       ///< n_{n+1} [-]
-    dealii::Tensor<1, dim> fluid_velocity; ///< [m/s]
-    dealii::Tensor<1, dim> darcy_velocity; ///< of the balance [m/s]
+    double                 pressure;        ///< of the balance [Pa]
+    double                 end_pressure;    ///< [Pa]
+    double                 fluctuation;     ///< of the stabilisation [Pa]
+    double                 porosity;        ///< n_{n+1} [-]
+    dealii::Tensor<1, dim> fluid_velocity;  ///< [m/s]
+    dealii::Tensor<1, dim> darcy_velocity;  ///< of the balance [m/s]
+    dealii::Tensor<1, dim> relative;        ///< w, of the fluid against the skeleton [m/s]
+    double                 mass;            ///< of the fluid at the end [kg]
+    dealii::Tensor<1, dim> skeleton_change; ///< of the skeleton's velocity, by the filter [m/s]
     // of the step
-    double darcy_dissipation;       ///< [J]
+    double darcy_dissipation;       ///< with what a dry point swallows [J]
+    double swallowed;               ///< volume of fluid that a dry point takes away [m^3]
     double weight_work;             ///< of the body force on the fluid [J]
     double weight_impulse;          ///< over the body force: mean mass times dt [kg s]
+    double filter_loss;             ///< by the filter of velocities [J]
     double stabilisation_loss;      ///< [J]
     double stabilisation_torque[3]; ///< what it takes of the angular momentum [kg m^2/s]
   };

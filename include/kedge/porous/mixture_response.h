@@ -36,6 +36,7 @@ namespace kedge
     Number end_fluctuation;         ///< [Pa]
     Number fluctuation;             ///< of the balance [Pa]
     Number darcy_velocity[dim];     ///< [m/s]
+    Number relative[dim];           ///< w, of the fluid against the skeleton [m/s]
     Number darcy_power;             ///< dissipated, per V0 [W/m^3]
     Number weight_power;            ///< of the body force on the fluid, per V0 [W/m^3]
   };
@@ -300,6 +301,7 @@ namespace kedge
                                    flow.content.at_n * trial.fluid_velocity_n[i]) /
                                   flow.content.end;
         r.darcy_velocity[i] = n * flow.relative[i];
+        r.relative[i]       = flow.relative[i];
       }
   }
 } // namespace kedge

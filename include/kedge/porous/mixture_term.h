@@ -107,7 +107,8 @@ namespace kedge
     struct Columns
     {
       Ledger::Index stabilisation, stabilisation_stored, stabilisation_torque[3];
-      Ledger::Index kinetic_energy, fluid_kinetic_energy, fluid_energy, darcy, surface, work;
+      Ledger::Index kinetic_energy, fluid_kinetic_energy, fluid_energy, darcy, surface, filter,
+        work;
       Ledger::Index momentum[3], angular_momentum[3], mass;
       Ledger::Index solid_mass, fluid_mass, inflow, min_porosity;
     };
@@ -121,6 +122,8 @@ namespace kedge
     holds_any_node() const;
     void
     translate(Trial<dim> &trial) const;
+    void
+    filter_velocities(const Trial<dim> &trial);
     NodalPotential<dim>
     potential(const Trial<dim> &trial) const;
     MixtureField<dim>

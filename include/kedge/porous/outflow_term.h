@@ -23,9 +23,11 @@ namespace kedge
     /**
      * @param soils   one per body of saturated scenes; else empty
      * @param motions of all fields, which stand before this term
+     * @param fluid_moves whether the fluid has a velocity of its own
      */
     OutflowTerm(const std::vector<Soil>                    &soils,
                 const std::vector<const MotionTerm<dim> *> &motions,
+                const bool                                  fluid_moves,
                 const MPI_Comm                              communicator);
 
     std::string
@@ -47,6 +49,7 @@ namespace kedge
   private:
     const std::vector<Soil>                    soils;
     const std::vector<const MotionTerm<dim> *> motions;
+    const bool                                 fluid_moves;
     const MPI_Comm                             communicator;
     Ledger::Index energy = 0, momentum[dim] = {}, mass = 0, n_points = 0, fluid_mass = 0;
   };

@@ -30,6 +30,7 @@ namespace kedge
     PoreFluidParameters fluid;                   ///< but what differs from body to body
     bool                coarse_pressure = false; ///< whether it lives at the cells' corners alone
     double              stabilisation   = 1;     ///< of (4.179): tau = stabilisation/(2 G) [-]
+    double              velocity_filter = 0;     ///< of the conserving scheme, see MixtureTerm [-]
     double              stabilisation_theta = 0.55; ///< of the conserving scheme, in [1/2, 1] [-]
     PressureMap         pressure_map        = PressureMap::consistent;
     double surface_penalty = 10;   ///< of SurfacePressures, times conductivity over cell size [-]

@@ -88,7 +88,8 @@ namespace kedge
     Pack content_increment;   ///< m_{n+1} - m_n per V0 [kg/m^3]
     Pack darcy_velocity[dim]; ///< q/rho_f at balance [m/s]
     Pack darcy_power;         ///< dissipated, per V0 [W/m^3]
-    Pack flow_work_rate;      ///< of f - a on the flow through the skeleton, per V0 [W/m^3]
+    Pack flow_work_rate;      ///< of f on the flow through the skeleton, per V0 [W/m^3]
+    Pack inertia_work_rate;   ///< of -a on it, which no energy stands against, per V0 [W/m^3]
   };
 
   /**

@@ -17,7 +17,8 @@ namespace kedge
     double content_rate_change; ///< m''_{n+1} per V0 [kg/m^3/s^2]
     double darcy_velocity[dim]; ///< [m/s]
     double darcy_dissipation;   ///< in this step [J]
-    double flow_work;           ///< of f - a on the flow, in this step [J]
+    double flow_work;           ///< of f on the flow, in this step [J]
+    double inertia_work;        ///< of -a on it [J]
     double known_inflow;        ///< dt m' as far as it is known at n [kg]
     double stabilisation_work;  ///< of the stabilisation, in this step [J]
   };

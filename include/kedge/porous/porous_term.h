@@ -130,7 +130,7 @@ namespace kedge
     };
     struct Columns
     {
-      Ledger::Index stabilisation, fluid_energy, darcy, work;
+      Ledger::Index stabilisation, fluid_energy, darcy, work, neglected;
       Ledger::Index solid_mass, fluid_mass, inflow, min_porosity;
     };
 

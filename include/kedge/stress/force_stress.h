@@ -129,8 +129,8 @@ namespace kedge
      * of bodies that have not flowed. (Measured from the state before all plastic flow, whose
      * strains may be large by any factor, the directions of N would be as far apart.) @p work_slope
      * is 2 d(dPsi + dD)/dE, S_{n+1} for most materials. As E -> 0, q = O(|E|); it is set to zero
-     * where |E| < 1e-12: what it does there, a part |E|^2 of the work, is nothing, and round-off of the
-     * work over |E|^2 (strains of 1e-17 of a motion that is rigid) would be more than any stiffness. Its
+     * where |E| < 1e-15: what it does there, a part |E|^2 of the work, is nothing, and round-off of the
+     * work over |E|^2 (strains of 1e-33 of a motion that is rigid) would be more than any stiffness. Its
      * derivative's rank-one part, O(|E|) too, is dropped where round-off would exceed it.
      */
     template <int dim, bool with_tangent, typename Number>
@@ -143,7 +143,7 @@ namespace kedge
                     Number (&H)[n_symmetric<dim>][n_symmetric<dim>])
     {
       constexpr int    ns              = n_symmetric<dim>;
-      constexpr double smallest_square = 1e-24, smallest_square_for_slope = 1e-16;
+      constexpr double smallest_square = 1e-30, smallest_square_for_slope = 1e-16;
 
       Number N[ns];
       sandwich<dim>(state.elastic_left_cauchy_green, E, N);
