@@ -4,7 +4,7 @@ usage: saturated_books.py KEDGE FOLDER SCENES
 
 Free saturated blocks tumble. Expected: nothing is lost but what is booked (theory_mixture.md 4):
 energy, both momenta, masses. Tolerances: round-off, and what Newton's method leaves where steps are
-long; a scheme that does not conserve misses them by eight orders (the u-p mid-point scheme has 2e-2
+long; a scheme that does not conserve misses them by nine orders (the u-p mid-point scheme has 3e-3
 of the energy, checked here too, so that the measure is known to see it).
 """
 import csv

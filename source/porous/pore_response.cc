@@ -1,56 +1,10 @@
+#include <kedge/porous/gradient_inverse.h>
 #include <kedge/porous/pore_response.h>
 
 namespace kedge
 {
   namespace
   {
-    /** A function of one double in each lane. */
-    template <typename Function>
-    inline Pack
-    in_lanes(const Pack &x, const Function &function)
-    {
-      Pack result;
-      for (unsigned int lane = 0; lane < pack_width; ++lane)
-        result.set(lane, function(x[lane]));
-      return result;
-    }
-
-    /** Inverse of I + A, and det(I + A) - 1 without cancellation. */
-    template <int dim>
-    inline Pack
-    invert(const Pack (&A)[dim][dim], Pack (&inverse)[dim][dim])
-    {
-      Pack F[dim][dim];
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          F[i][j] = (i == j ? 1. : 0.) + A[i][j];
-      Pack excess;
-      if constexpr (dim == 2)
-        {
-          excess           = A[0][0] + A[1][1] + (A[0][0] * A[1][1] - A[0][1] * A[1][0]);
-          const Pack scale = 1. / (1. + excess);
-          inverse[0][0]    = scale * F[1][1];
-          inverse[0][1]    = -scale * F[0][1];
-          inverse[1][0]    = -scale * F[1][0];
-          inverse[1][1]    = scale * F[0][0];
-        }
-      else
-        {
-          const auto minor = [](const Pack(&M)[dim][dim], const int i, const int j) {
-            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-            return M[a][c] * M[b][d] - M[a][d] * M[b][c];
-          };
-          excess = A[0][0] + A[1][1] + A[2][2] + minor(A, 0, 0) + minor(A, 1, 1) + minor(A, 2, 2);
-          for (int j = 0; j < dim; ++j)
-            excess += A[0][j] * minor(A, 0, j);
-          const Pack scale = 1. / (1. + excess);
-          for (int i = 0; i < dim; ++i)
-            for (int j = 0; j < dim; ++j)
-              inverse[j][i] = scale * minor(F, i, j);
-        }
-      return excess;
-    }
-
     /** x_R = G_Ri v_i: a vector at balance becomes a factor of gradients by x_n. */
     template <int dim>
     inline void
@@ -88,18 +42,14 @@ namespace kedge
     inline void
     find_kinematics(const PoreStep<dim> &step, const PoreTrial<dim> &trial, Balance<dim> &b)
     {
-      Pack at[dim][dim];
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          at[i][j] = step.alpha * trial.displacement[i][j];
-      b.excess     = invert<dim>(at, b.G);
-      b.excess_end = invert<dim>(trial.displacement, b.G_end);
+      b.excess     = internal::invert_gradient<dim>(trial.displacement, step.alpha, b.G);
+      b.excess_end = internal::invert_gradient<dim>(trial.displacement, 1., b.G_end);
     }
 
     inline Pack
     density(const PoreFluid &fluid, const Pack &pressure)
     {
-      return in_lanes(pressure, [&fluid](const double x) {
+      return internal::of_each(pressure, [&fluid](const double x) {
         return fluid.density(x);
       });
     }
@@ -115,7 +65,7 @@ namespace kedge
       b.phi                   = b.J - grains;
       b.rho                   = density(fluid, trial.pressure);
       b.n                     = 1. - grains / b.J;
-      b.mobility              = in_lanes(b.n, [&](const double x) {
+      b.mobility              = internal::of_each(b.n, [&](const double x) {
         return fluid.mass_mobility(x);
       });
       b.K                     = trial.volume * b.J * b.mobility * step.dt / fluid.reference_density;
@@ -146,9 +96,10 @@ namespace kedge
       b.rho_end         = density(fluid, r.end_pressure);
       const Pack rho_grown =
         density(fluid, trial.pressure_n) *
-        in_lanes((r.end_pressure - trial.pressure_n) / fluid.bulk_modulus, [](const double x) {
-          return std::expm1(x);
-        });
+        internal::of_each((r.end_pressure - trial.pressure_n) / fluid.bulk_modulus,
+                          [](const double x) {
+                            return std::expm1(x);
+                          });
       r.content_increment = b.rho_end * trial.determinant * b.excess_end + phi_n * rho_grown;
     }
 
@@ -236,10 +187,10 @@ namespace kedge
         pull_back<dim>(G, G[R], GG[R]);
       // J d(J kappa)/dJ / (J kappa) = 1 + (1 - n) kappa'/kappa, kappa = 0 allowed
       const Pack K_slope = b.K + V * b.J * (1. - b.n) *
-                                   in_lanes(b.n,
-                                            [&](const double x) {
-                                              return fluid.mass_mobility_slope(x);
-                                            }) *
+                                   internal::of_each(b.n,
+                                                     [&](const double x) {
+                                                       return fluid.mass_mobility_slope(x);
+                                                     }) *
                                    step.dt / rho_0;
       for (int m = 0; m < dim; ++m)
         for (int S = 0; S < dim; ++S)
