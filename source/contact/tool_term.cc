@@ -42,7 +42,8 @@ namespace kedge
       throw UserError("Contact/" + parameters.name + "/Tool = " + rigid[tool].name +
                       ": The rigid body has no shape (Rigid bodies/" + rigid[tool].name +
                       "/Geometry).");
-    search = std::make_unique<FacetSearch<dim>>(mesh, box_of(mesh));
+    search      = std::make_unique<FacetSearch<dim>>(mesh, box_of(mesh));
+    penetration = std::make_unique<ToolPenetration<dim>>(rigid, tool, *search, cell_size);
     for (const WallBody<dim> &body : touching)
       sides.emplace_back(
         body,
@@ -414,6 +415,7 @@ namespace kedge
   ToolTerm<dim>::declare_books(Ledger &ledger)
   {
     books.declare(ledger, parameters.name);
+    penetration->declare(ledger, parameters.name);
   }
 
 
@@ -446,12 +448,17 @@ namespace kedge
 
   template <int dim>
   void
-  ToolTerm<dim>::book_state(const MaterialPoints<dim> &, Ledger &ledger) const
+  ToolTerm<dim>::book_state(const MaterialPoints<dim> &cloud, Ledger &ledger) const
   {
-    double sum = 0.;
+    double                                sum = 0.;
+    std::vector<const BodySurface<dim> *> surfaces;
     for (const ToolSamples<dim> &side : sides)
-      sum += side.stored(side.memory);
+      {
+        sum += side.stored(side.memory);
+        surfaces.push_back(side.body.surface);
+      }
     books.book_state(ledger, sum);
+    penetration->book(ledger, surfaces, cloud);
   }
 
 

@@ -11,6 +11,9 @@ namespace kedge
     /** Raises the scaled diagonal of a singular tangent; Newton's residual stays exact. */
     constexpr double singular_shift = 1e-10;
 
+    /** So many unknowns that belong to no node iterative methods take beside the others. */
+    constexpr unsigned int largest_border = 64;
+
     /** Part of the supports' motion by which the residual's slope is taken. */
     constexpr double small_part = 1e-6;
   } // namespace
@@ -214,9 +217,12 @@ namespace kedge
     for (const auto &field : unknowns.fields)
       if (field.n_components != dim)
         return;
-    if (unknowns.n_others() > 0)
+    if (unknowns.n_others() > 0 &&
+        (unknowns.n_others() > largest_border ||
+         dealii::Utilities::MPI::n_mpi_processes(tangent.system().communicator) > 1))
       return;
-    displacements.dim = dim;
+    displacements.dim      = dim;
+    displacements.n_others = unknowns.n_others();
     for (unsigned int f = 0; f < patches.size(); ++f)
       for (const unsigned int k : tangent.equations_of_field(f))
         {

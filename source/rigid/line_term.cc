@@ -434,7 +434,7 @@ namespace kedge
   void
   LineTerm<dim>::save(SavedState &state) const
   {
-    state[name()] = {times.t_n + times.dt};
+    state[name()] = {program.time(times.t_n + times.dt)}; // a stage ends at the start of the run
   }
 
 

@@ -1,4 +1,5 @@
 #include "backend.h"
+#include "bordered_preconditioner.h"
 #include "gmres.h"
 #include "lattice_multigrid.h"
 #include "mixed_preconditioner.h"
@@ -37,7 +38,10 @@ namespace kedge
           }
         matrix.set_values(system);
         is_fresh = false;
-        return is_worn ? set_up() : LinearStatus();
+        if (is_worn)
+          return set_up();
+        preconditioner->follow(matrix);
+        return {};
       }
 
       LinearStatus
@@ -130,12 +134,17 @@ namespace kedge
   {
     return std::make_unique<KeptBackend>(
       [&blocks](const SparseSystem &system) -> std::unique_ptr<Preconditioner> {
-        int n_ranks = 1;
+        std::unique_ptr<Preconditioner> of_nodes;
+        int                             n_ranks = 1;
         MPI_Comm_size(system.communicator, &n_ranks);
         if (n_ranks == 1)
           if (auto lattice = find_lattice(blocks))
-            return std::make_unique<LatticeMultigrid>(std::move(*lattice));
-        return std::make_unique<MixedPreconditioner>(blocks);
+            of_nodes = std::make_unique<LatticeMultigrid>(std::move(*lattice));
+        if (!of_nodes)
+          of_nodes = std::make_unique<MixedPreconditioner>(blocks);
+        if (blocks.n_others == 0)
+          return of_nodes;
+        return std::make_unique<BorderedPreconditioner>(std::move(of_nodes), blocks.n_others);
       });
   }
 } // namespace kedge

@@ -138,12 +138,21 @@ namespace kedge
 
 
 
+  /** Whether what belongs to no node stands behind the nodes, so that multigrid takes it too. */
+  bool
+  LinearSolver::has_border() const
+  {
+    return blocks && blocks->n_others > 0 && !traits.mixed;
+  }
+
+
+
   LinearSolverKind
   LinearSolver::cheapest(const SparseSystem &system)
   {
     const double n          = static_cast<double>(system.n_global);
     const double entries    = n_entries(system);
-    const bool   multigrid  = !traits.dominated_by_inertia;
+    const bool   multigrid  = !traits.dominated_by_inertia || traits.multipliers;
     const bool   on_lattice = blocks && is_on_one_rank(system);
     const double banded     = banded_time(n, static_cast<double>(bandwidth(system)));
     const double umfpack    = umfpack_time(n, entries, traits.space_dimension);
@@ -153,7 +162,7 @@ namespace kedge
 
     const double exact = std::min(banded, umfpack);
     substitute         = banded < umfpack ? LinearSolverKind::banded : LinearSolverKind::direct;
-    if (traits.multipliers || exact <= usual_iterations * iteration)
+    if ((traits.multipliers && !has_border()) || exact <= usual_iterations * iteration)
       return substitute;
     if (exact > longest_substitute)
       substitute = LinearSolverKind::automatic;
@@ -219,7 +228,8 @@ namespace kedge
     const bool analyse = new_pattern;
     choose(system);
     if (traits.multipliers && chosen != LinearSolverKind::banded &&
-        chosen != LinearSolverKind::direct)
+        chosen != LinearSolverKind::direct &&
+        !(has_border() && chosen == LinearSolverKind::krylov_amg))
       return LinearStatus::failure("the iterative method " + method() +
                                    " cannot solve for multipliers; take a direct one");
     if (!backend)

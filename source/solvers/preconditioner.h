@@ -19,6 +19,11 @@ namespace kedge
     virtual void
     factorise(const DistributedMatrix &matrix) = 0;
 
+    /** Takes new values that those factorised serve for (collective). */
+    virtual void
+    follow(const DistributedMatrix &)
+    {}
+
     /** y = P^-1 x; @p matrix is the present one (collective). */
     virtual void
     multiply(const DistributedMatrix &matrix, const double *x, double *y) = 0;

@@ -393,6 +393,24 @@ namespace kedge
     return true;
   }
 
+
+
+  template <int dim>
+  double
+  FacetSearch<dim>::depth(const dealii::Point<dim> &x, const double first) const
+  {
+    for (double distance = first; !empty(); distance *= 2.)
+      {
+        const std::vector<unsigned int> near  = facets_within(x, distance);
+        double                          least = 2. * distance;
+        for (const unsigned int f : near)
+          least = std::min(least, closest_on_facet<dim>(mesh.corners(f), x).distance);
+        if (least <= distance) // what is not among them is farther off
+          return is_outside(x, near, 2. * distance) ? 0. : least;
+      }
+    return 0.;
+  }
+
   template struct FacetPoint<2>;
   template struct FacetPoint<3>;
   template FacetPoint<2>

@@ -67,3 +67,51 @@ TYPED_TEST(FacetSearchTest, FindsTheNearestWhateverTheGuess)
     }
   EXPECT_GT(n_found, 60u);
 }
+
+// Of a convex body the depth of a place is its distance from the nearest plane of a facet if it is
+// on the inner side of all, else 0. To round-off.
+TYPED_TEST(FacetSearchTest, DepthIsThatUnderTheNearestPlane)
+{
+  constexpr int          dim  = TypeParam::value;
+  const SurfaceMesh<dim> ball = mesh_of_ball<dim>(dealii::Point<dim>(), 1., 0.3);
+  dealii::Point<dim>     lower, upper;
+  for (int d = 0; d < dim; ++d)
+    {
+      lower[d] = -2.;
+      upper[d] = 2.;
+    }
+  const FacetSearch<dim>                 search(ball, dealii::BoundingBox<dim>({lower, upper}));
+  std::mt19937                           generator(11);
+  std::uniform_real_distribution<double> place(-1.1, 1.1);
+  unsigned int                           n_inside = 0;
+  for (unsigned int trial = 0; trial < 300; ++trial)
+    {
+      dealii::Point<dim> x;
+      for (int d = 0; d < dim; ++d)
+        x[d] = place(generator);
+      double depth = 2.;
+      for (unsigned int f = 0; f < ball.facets.size(); ++f)
+        {
+          const auto corners = ball.corners(f);
+          const auto normal  = area_vector<dim>(corners);
+          depth              = std::min(depth, normal * (corners[0] - x) / normal.norm());
+        }
+      n_inside += depth > 0.;
+      EXPECT_NEAR(search.depth(x, trial % 2 == 0 ? 0.01 : 5.), std::max(depth, 0.), 1e-12);
+    }
+  EXPECT_GT(n_inside, 50u);
+}
+
+// Beyond the tip of a wedge, where the nearest place is its vertex, and beside and in it.
+TEST(FacetSearch, DepthAtASharpTip)
+{
+  SurfaceMesh<2> wedge;
+  wedge.vertices = {{0., 0.}, {1., 4.}, {-1., 4.}};
+  wedge.facets   = {{{0, 1}}, {{1, 2}}, {{2, 0}}};
+  const FacetSearch<2> search(wedge, dealii::BoundingBox<2>({{-2., -1.}, {2., 5.}}));
+  EXPECT_EQ(search.depth({0., -0.01}, 0.1), 0.);
+  EXPECT_EQ(search.depth({0.02, -0.01}, 0.1), 0.);
+  EXPECT_EQ(search.depth({0.1, 0.2}, 0.1), 0.);
+  // under the side through 0 with the slope of 4: 0.4 (4, -1)/sqrt(17) off (0, 0.4)
+  EXPECT_NEAR(search.depth({0., 0.4}, 0.01), 0.4 / std::sqrt(17.), 1e-14);
+}

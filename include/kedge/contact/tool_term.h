@@ -2,6 +2,7 @@
 #define kedge_contact_tool_term_h
 
 #include <kedge/contact/contact_picture.h>
+#include <kedge/contact/tool_penetration.h>
 #include <kedge/contact/tool_samples.h>
 #include <kedge/equations/term.h>
 
@@ -131,6 +132,7 @@ namespace kedge
     double            released = 0.; ///< energy of samples that no longer look here [J]
     unsigned int      n_passes = 0, n_updates = 0, n_tangents = 0, n_follows = 0;
     ContactBooks<dim> books;
+    std::unique_ptr<ToolPenetration<dim>> penetration;
   };
 } // namespace kedge
 

@@ -129,6 +129,8 @@ namespace kedge
     LinearSolverKind         substitute     = LinearSolverKind::automatic; ///< direct, if any
     std::unique_ptr<Backend> direct; ///< of the substitute, for this matrix only
 
+    bool
+    has_border() const;
     LinearSolverKind
     cheapest(const SparseSystem &system);
     std::unique_ptr<Backend>

@@ -16,8 +16,11 @@ namespace kedge
   struct MixedBlocks
   {
     int                        dim = 2;
-    std::vector<unsigned char> component; ///< of each row: dim is the pressure
+    std::vector<unsigned char> component; ///< of each row of a node: dim is the pressure
     std::vector<double>        position;  ///< of each row's node, dim coordinates [m]
+
+    /** Rows of unknowns that belong to no node, behind all others; on one rank only. */
+    unsigned int n_others = 0;
 
     /**
      * What stands for -D A^-1 G where stiffness determines A, a matrix of the

@@ -93,6 +93,15 @@ namespace kedge
          Partner                      &partner,
          const unsigned int            guess = no_facet) const;
 
+    /**
+     * How deep @p x lies in the body: its distance from the surface, 0 outside [m]. All facets of
+     * the closed surface must be in the region.
+     *
+     * @param first where the search begins, which widens until it meets a facet [m]
+     */
+    double
+    depth(const dealii::Point<dim> &x, const double first) const;
+
   private:
     class Tree;
 
