@@ -53,6 +53,9 @@ foreach(angle 0 10 20 30)
   kedge_add_scene_test(scene.sledge.${angle} prm/sledge.prm SET "Constants/angle = ${angle}")
 endforeach()
 kedge_add_scene_test(scene.anchor_tow prm/anchor_tow.prm)
+# set down on clay and pulled at, on a coarse grid and for a short time
+kedge_add_scene_test(scene.anchor_clay prm/anchor_clay.prm
+  SET "Constants/h = 0.8" "Constants/lay = 1" "Constants/drag = 0.2")
 # a stage of equilibrium before it: the line's energy is that of the run's start
 kedge_add_scene_test(scene.sledge.rough prm/sledge.prm
   SET "Constants/mu = 0.5" "Equilibrium/Steps = 1")

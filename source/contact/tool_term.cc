@@ -1,5 +1,4 @@
 #include <kedge/base/exceptions.h>
-#include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/tool_term.h>
 
 #include <sstream>
@@ -42,18 +41,22 @@ namespace kedge
       throw UserError("Contact/" + parameters.name + "/Tool = " + rigid[tool].name +
                       ": The rigid body has no shape (Rigid bodies/" + rigid[tool].name +
                       "/Geometry).");
-    search      = std::make_unique<FacetSearch<dim>>(mesh, box_of(mesh));
-    penetration = std::make_unique<ToolPenetration<dim>>(rigid, tool, *search, cell_size);
+    search               = std::make_unique<FacetSearch<dim>>(mesh, box_of(mesh));
+    penetration          = std::make_unique<ToolPenetration<dim>>(rigid, tool, *search, cell_size);
+    const double spacing = parameters.spacing > 0. ? parameters.spacing : 0.2 * cell_size;
+    if (scheme.dynamic) // at rest Uzawa's iteration does not find how edges and faces share a load
+      edges = sharp_places<dim>(mesh, spacing);
     for (const WallBody<dim> &body : touching)
-      sides.emplace_back(
-        body,
-        contact_law_of(parameters, body.normal_stiffness, body.tangent_stiffness, scheme),
-        rigid,
-        tool,
-        *search,
-        shear_limit,
-        reach * cell_size,
-        largest_overlap * cell_size);
+      {
+        const ContactLaw law =
+          contact_law_of(parameters, body.normal_stiffness, body.tangent_stiffness, scheme);
+        const double far = reach * cell_size, deep = largest_overlap * cell_size;
+        sides.push_back(std::make_unique<
+                        ToolSamples<dim>>(body, law, rigid, tool, *search, shear_limit, far, deep));
+        sides.push_back(
+          std::make_unique<
+            ToolEdges<dim>>(body, law, rigid, tool, edges, spacing, shear_limit, far, deep));
+      }
   }
 
 
@@ -62,23 +65,23 @@ namespace kedge
   void
   ToolTerm<dim>::attach(std::vector<GeneratedPoint<dim>> &)
   {
-    for (ToolSamples<dim> &side : sides)
+    for (const auto &side : sides)
       {
-        shear_limit.count_from(*side.body.surface);
-        side.move({});
-        const auto [overlap, place] = side.deepest();
+        shear_limit.count_from(*side->body.surface);
+        side->move({});
+        const auto [overlap, place] = side->deepest();
         if (overlap <= largest_overlap * cell_size)
           continue;
         std::ostringstream message;
-        message << "Contact '" << parameters.name << "': body '" << side.body.surface->body_name
+        message << "Contact '" << parameters.name << "': body '" << side->body.surface->body_name
                 << "' reaches " << overlap << " m into the rigid body '" << rigid[tool].name
                 << "' at (" << place << "), which is more than half a cell. Move it (Bodies/"
-                << side.body.surface->body_name << "/Geometry) or the other (Rigid bodies/"
+                << side->body.surface->body_name << "/Geometry) or the other (Rigid bodies/"
                 << rigid[tool].name << "/Geometry).";
         throw UserError(message.str());
       }
-    for (const ToolSamples<dim> &side : sides)
-      shear_limit.check(*side.body.surface, side.body.clay != nullptr);
+    for (const auto &side : sides)
+      shear_limit.check(*side->body.surface, side->body.clay != nullptr);
   }
 
 
@@ -88,8 +91,8 @@ namespace kedge
   ToolTerm<dim>::activate(const MaterialPoints<dim> &)
   {
     if (shear_limit.is_of_place())
-      for (ToolSamples<dim> &side : sides)
-        side.read_strengths();
+      for (const auto &side : sides)
+        side->read_strengths();
   }
 
 
@@ -99,16 +102,16 @@ namespace kedge
   ToolTerm<dim>::start(Trial<dim> &trial)
   {
     n_passes = n_updates = n_tangents = n_follows = 0;
-    for (ToolSamples<dim> &side : sides)
+    for (const auto &side : sides)
       {
-        side.begin_step();
+        side->begin_step();
         std::vector<double> predicted;
         if (!at_rest)
-          predicted = trial.motion[side.body.surface->field].velocity_n;
+          predicted = trial.motion[side->body.surface->field].velocity_n;
         for (double &u : predicted)
           u *= trial.times.dt;
-        side.move(predicted);
-        side.find();
+        side->move(predicted);
+        side->find();
       }
   }
 
@@ -118,10 +121,10 @@ namespace kedge
   void
   ToolTerm<dim>::move(const Trial<dim> &trial)
   {
-    for (ToolSamples<dim> &side : sides)
+    for (const auto &side : sides)
       {
-        side.move(trial.displacement(side.body.surface->field));
-        side.read_pore_pressures(trial.unknowns.fields[side.body.surface->field]);
+        side->move(trial.displacement(side->body.surface->field));
+        side->read_pore_pressures(trial.unknowns.fields[side->body.surface->field]);
       }
   }
 
@@ -131,9 +134,9 @@ namespace kedge
   bool
   ToolTerm<dim>::presses() const
   {
-    for (const ToolSamples<dim> &side : sides)
-      for (const Sample &sample : side.samples)
-        if (side.response(sample).pressure > 0.)
+    for (const auto &side : sides)
+      for (const Sample &sample : side->samples)
+        if (side->response(sample).pressure > 0.)
           return true;
     return false;
   }
@@ -149,21 +152,21 @@ namespace kedge
     if (!at_rest && n_follows < std::min(n_tangents, most_follows))
       {
         n_follows = n_tangents;
-        for (ToolSamples<dim> &side : sides)
-          side.find_anew();
+        for (const auto &side : sides)
+          side->find_anew();
       }
-    for (const ToolSamples<dim> &side : sides)
-      for (const Sample &sample : side.samples)
+    for (const auto &side : sides)
+      for (const Sample &sample : side->samples)
         {
-          const dealii::Tensor<1, dim> force = sample.area * side.response(sample).traction;
+          const dealii::Tensor<1, dim> force = sample.area * side->response(sample).traction;
           if (force == dealii::Tensor<1, dim>())
             continue;
-          const BodySurface<dim> &surface = *side.body.surface;
+          const BodySurface<dim> &surface = *side->body.surface;
           add_spread_force(surface,
-                           side.functions(sample),
+                           side->functions(sample),
                            -force,
                            residual.partial(surface.field));
-          rigid.add_force(side.point(sample), -in_space<dim>(force), residual.others());
+          rigid.add_force(side->point(sample), -in_space<dim>(force), residual.others());
         }
     return {};
   }
@@ -177,10 +180,10 @@ namespace kedge
     ++n_tangents;
     move(trial);
     const bool to_be_held = at_rest && !presses();
-    for (const ToolSamples<dim> &side : sides)
-      for (const Sample &sample : side.samples)
-        if (side.body.surface->owns(side.body.surface->mesh().facets[sample.facet][0]))
-          add_sample(side, sample, side.response(sample), to_be_held, tangent);
+    for (const auto &side : sides)
+      for (const Sample &sample : side->samples)
+        if (side->body.surface->owns(side->body.surface->mesh().facets[sample.facet][0]))
+          add_sample(*side, sample, side->response(sample), to_be_held, tangent);
   }
 
 
@@ -188,7 +191,7 @@ namespace kedge
   /** -A W^T (d traction / dD) M: M says how D follows the unknowns, W what forces do to them. */
   template <int dim>
   void
-  ToolTerm<dim>::add_sample(const ToolSamples<dim>     &side,
+  ToolTerm<dim>::add_sample(const ToolSide<dim>        &side,
                             const Sample               &sample,
                             const ContactResponse<dim> &here,
                             const bool                  to_be_held,
@@ -206,12 +209,13 @@ namespace kedge
     if (slope == dealii::Tensor<2, dim>())
       return;
     const BodySurface<dim>        &surface = *side.body.surface;
-    std::map<unsigned int, double> of_pressures; // where the law asks for them: at the middle
+    std::map<unsigned int, double> of_pressures; // where the law asks for them
     if (side.body.carries_water)
-      for (const unsigned int v : surface.mesh().facets[sample.facet])
+      side.for_vertices(sample, [&](const unsigned int v, const double weight) {
         surface.for_nodes_anywhere(v, [&](const unsigned int node, const double N) {
-          of_pressures[node] += N / dim;
+          of_pressures[node] += weight * N;
         });
+      });
     std::vector<Column> columns;
     for (const MeanFunction &of : side.functions(sample))
       for (unsigned int d = 0; d < dim; ++d)
@@ -244,104 +248,14 @@ namespace kedge
 
 
   template <int dim>
-  std::vector<std::vector<dealii::Tensor<1, dim>>>
-  ToolTerm<dim>::forces() const
-  {
-    std::vector<std::vector<dealii::Tensor<1, dim>>> result;
-    for (const ToolSamples<dim> &side : sides)
-      {
-        result.emplace_back(side.body.surface->n_facets());
-        for (const Sample &sample : side.samples)
-          result.back()[sample.facet] = sample.area * side.response(sample).traction;
-      }
-    return result;
-  }
-
-
-
-  /** Finds the samples anew; keeps those before if the forces are nearly the same. */
-  template <int dim>
-  bool
-  ToolTerm<dim>::directions_have_changed()
-  {
-    const auto                       before = forces();
-    std::vector<std::vector<Sample>> samples;
-    for (ToolSamples<dim> &side : sides)
-      {
-        samples.push_back(side.samples);
-        side.find_anew();
-      }
-    const auto after = forces();
-    double     size = 0., change = 0.;
-    for (std::size_t k = 0; k < before.size(); ++k)
-      for (std::size_t f = 0; f < before[k].size(); ++f)
-        {
-          size += std::max(before[k][f].norm(), after[k][f].norm());
-          change += (after[k][f] - before[k][f]).norm();
-        }
-    if (change > small_change * size)
-      return true;
-    for (std::size_t k = 0; k < sides.size(); ++k)
-      sides[k].samples.swap(samples[k]);
-    return false;
-  }
-
-
-
-  /** Uzawa's step at rest; false if no cell has a large gap and nothing that sticks creeps. */
-  template <int dim>
-  bool
-  ToolTerm<dim>::update_multipliers()
-  {
-    if (n_updates == most_updates)
-      return false;
-    const Lattice<dim> &lattice = sides.front().body.surface->patch.grid().lattice();
-    if (!kedge::update_multipliers<dim>(sides,
-                                        lattice,
-                                        smallest_gap * cell_size,
-                                        [](ToolSamples<dim> &side, CellMultipliers<dim> &cells) {
-                                          for (Sample &sample : side.samples)
-                                            cells.add(side.place_at_balance(sample),
-                                                      sample.area,
-                                                      side.law,
-                                                      sample.multiplier,
-                                                      sample.slip,
-                                                      side.response(sample));
-                                        }))
-      return false;
-    ++n_updates;
-    return true;
-  }
-
-
-
-  template <int dim>
-  bool
-  ToolTerm<dim>::refresh(const Trial<dim> &trial)
-  {
-    move(trial);
-    bool again = false;
-    if (n_passes < most_passes && directions_have_changed())
-      {
-        ++n_passes;
-        again = true;
-      }
-    if (at_rest)
-      again = update_multipliers() || again;
-    return again;
-  }
-
-
-
-  template <int dim>
   Answer
   ToolTerm<dim>::finish(const Trial<dim> &trial)
   {
     move(trial);
     released = 0.;
     places.clear();
-    for (ToolSamples<dim> &side : sides)
-      if (const Answer answer = finish(side, trial.times.dt); !answer.ok)
+    for (const auto &side : sides)
+      if (const Answer answer = finish(*side, trial.times.dt); !answer.ok)
         return answer;
     return {};
   }
@@ -350,7 +264,23 @@ namespace kedge
 
   template <int dim>
   Answer
-  ToolTerm<dim>::finish(ToolSamples<dim> &side, const double dt)
+  ToolTerm<dim>::too_deep(const ToolSide<dim> &side,
+                          const Sample        &sample,
+                          const double         overlap) const
+  {
+    std::ostringstream cause;
+    cause << name() << ": body '" << side.body.surface->body_name
+          << "' would come into the rigid body '" << rigid[tool].name << "' by " << overlap
+          << " m at (" << sample.place << "), more than half a cell; stiffen the contact (Contact/"
+          << parameters.name << "/Penalty factor) or refine the grid";
+    return Answer::failure(cause.str());
+  }
+
+
+
+  template <int dim>
+  Answer
+  ToolTerm<dim>::finish(ToolSide<dim> &side, const double dt)
   {
     side.end_of_step.clear();
     double taken_up = 0., left = 0.;
@@ -359,17 +289,12 @@ namespace kedge
         const ContactResponse<dim> end      = side.response(sample);
         const double               true_gap = side.true_gap(sample);
         const double               overlap  = -std::min(true_gap, end.gap_end);
-        if (overlap > largest_overlap * cell_size)
-          {
-            std::ostringstream cause;
-            cause << name() << ": body '" << side.body.surface->body_name
-                  << "' would come into the rigid body '" << rigid[tool].name << "' by " << overlap
-                  << " m at (" << sample.place
-                  << "), more than half a cell; stiffen the contact (Contact/" << parameters.name
-                  << "/Penalty factor) or refine the grid";
-            return Answer::failure(cause.str());
-          }
-        typename ToolSamples<dim>::Closed before, after;
+        // what the step has not brought there, a shorter one does not keep out: it is let go
+        const bool is_lost =
+          overlap > largest_overlap * cell_size && -side.gap_at_start(sample) > 0.5 * overlap;
+        if (overlap > largest_overlap * cell_size && !is_lost)
+          return too_deep(side, sample, overlap);
+        typename ToolSide<dim>::Closed before, after;
         before.gap        = sample.gap;
         before.multiplier = after.multiplier = sample.multiplier;
         before.slip                          = sample.slip;
@@ -380,15 +305,16 @@ namespace kedge
         after.lead                           = side.lead_at_end(sample);
         taken_up += sample.area * side.stored(before);
         left += sample.area * side.stored(after);
-        if (side.law.conserving ? end.gap_end < 0. || true_gap < 0. : end.pressure > 0.)
-          side.end_of_step.emplace(sample.facet, after);
+        if (!is_lost &&
+            (side.law.conserving ? end.gap_end < 0. || true_gap < 0. : end.pressure > 0.))
+          side.end_of_step.emplace(sample.key, after);
         if (books.are_kept_here())
           places.push_back(place_of(side, sample, dt));
       }
     // committed less taken up by samples; and at the end what samples had less what is kept
     released += side.stored(side.memory) - taken_up + left;
     side.end_of_step = side.handed_on(std::move(side.end_of_step));
-    released -= stored_after_step<dim>(side.law, *side.body.surface, side.end_of_step);
+    released -= side.stored_after_step(side.end_of_step);
     return {};
   }
 
@@ -396,7 +322,7 @@ namespace kedge
 
   template <int dim>
   ContactPlace<dim>
-  ToolTerm<dim>::place_of(const ToolSamples<dim> &side, const Sample &sample, const double dt) const
+  ToolTerm<dim>::place_of(const ToolSide<dim> &side, const Sample &sample, const double dt) const
   {
     ContactPlace<dim> place;
     place.surface = side.body.surface;
@@ -428,7 +354,7 @@ namespace kedge
                places,
                released,
                trial.times.dt,
-               sides.front().body.surface->patch.grid().lattice());
+               sides.front()->body.surface->patch.grid().lattice());
   }
 
 
@@ -439,8 +365,8 @@ namespace kedge
   {
     if (!books.are_kept_here())
       return;
-    for (const ToolSamples<dim> &side : sides)
-      picture.add_surface(*side.body.surface);
+    for (const auto &side : sides)
+      picture.add_surface(*side->body.surface);
     picture.add(committed_places);
   }
 
@@ -452,10 +378,11 @@ namespace kedge
   {
     double                                sum = 0.;
     std::vector<const BodySurface<dim> *> surfaces;
-    for (const ToolSamples<dim> &side : sides)
+    for (const auto &side : sides)
       {
-        sum += side.stored(side.memory);
-        surfaces.push_back(side.body.surface);
+        sum += side->stored(side->memory);
+        if (surfaces.empty() || surfaces.back() != side->body.surface)
+          surfaces.push_back(side->body.surface);
       }
     books.book_state(ledger, sum);
     penetration->book(ledger, surfaces, cloud);
@@ -467,8 +394,8 @@ namespace kedge
   void
   ToolTerm<dim>::commit(const Trial<dim> &, MaterialPoints<dim> &)
   {
-    for (ToolSamples<dim> &side : sides)
-      side.memory = std::move(side.end_of_step);
+    for (const auto &side : sides)
+      side->memory = std::move(side->end_of_step);
     committed_places = on_facets_after_step(std::move(places));
   }
 
@@ -479,7 +406,7 @@ namespace kedge
   ToolTerm<dim>::save(SavedState &state) const
   {
     for (std::size_t k = 0; k < sides.size(); ++k)
-      state[name() + " " + std::to_string(k)] = sides[k].save();
+      state[name() + " " + std::to_string(k)] = sides[k]->save();
   }
 
 
@@ -489,7 +416,7 @@ namespace kedge
   ToolTerm<dim>::restore(const SavedState &state)
   {
     for (std::size_t k = 0; k < sides.size(); ++k)
-      sides[k].restore(state.at(name() + " " + std::to_string(k)), !at_rest);
+      sides[k]->restore(state.at(name() + " " + std::to_string(k)), !at_rest);
   }
 
   template class ToolTerm<2>;

@@ -2,6 +2,8 @@
 #include "../equations/term_cloud.h"
 #include "two_blocks.h"
 
+#include <kedge/contact/tool_edges.h>
+
 using namespace kedge;
 using namespace contact_tests;
 
@@ -86,6 +88,50 @@ TYPED_TEST(Tool, BooksCloseAndMomentumIsKept)
           EXPECT_GT(ledger.value("friction_dissipation"), 1e-4 * energy);
         }
     }
+}
+
+// The tip of a wedge strikes the block between the middles of two facets. It comes no deeper than
+// what the contact's stiffness asks for; without places of their own tips came in until a side met
+// a middle, by 0.014 m here. The books close to round-off.
+TEST(ToolScene, ATipMeetsWhatIsBetweenMiddles)
+{
+  Setting<2>    setting(replaced(on_tool<2>(rough, "clc-midpoint"),
+                              "polygon(-0.2, 0.3; 1.7, 0.3; 1.7, 0.6; -0.2, 0.59)",
+                              "polygon(0.68, 0.3; 0.88, 0.3; 0.78, 0.605)"));
+  const Ledger &ledger  = setting.model.ledger;
+  const double  energy  = ledger.value("total_energy");
+  double        deepest = 0.;
+  for (unsigned int step = 0; step < 8; ++step)
+    {
+      setting.run(1, 0.01);
+      deepest = std::max(deepest, ledger.value("contact_penetration_blocks"));
+    }
+  EXPECT_GT(ledger.value("contact_duration_blocks"), 0.03);
+  EXPECT_LT(deepest, 0.02 * 0.2); // of a cell
+  EXPECT_NEAR(ledger.value("energy_error"), 0., 1e-12 * energy);
+}
+
+// The edges of a box, whole and in parts no longer than asked for; a dent has none.
+TEST(ToolScene, SharpPlacesAreEdgesAndCorners)
+{
+  const auto   box     = mesh_of_box<3>({0., 0., 0.}, {1., 2., 3.}, 10.);
+  const auto   places  = sharp_places<3>(box, 0.5);
+  double       length  = 0.;
+  unsigned int corners = 0;
+  for (const auto &place : places)
+    {
+      length += place.length;
+      const dealii::Tensor<1, 3> from_middle = place.at - dealii::Point<3>(0.5, 1., 1.5);
+      EXPECT_GT(place.outward * from_middle, 0.);
+      EXPECT_NEAR(place.outward.norm(), 1., 1e-15);
+      corners += place.length > 0.6;
+    }
+  EXPECT_NEAR(length, 4. * (1. + 2. + 3.), 1e-12);
+  EXPECT_EQ(corners, 8u);                         // each stands for a quarter metre of three edges
+  EXPECT_EQ(places.size(), 8u + 4 * (1 + 3 + 5)); // and those between them
+  // an arrowhead: its tip and two barbs, not the dent between them; counter-clockwise
+  const auto arrow = mesh_of_polygon({{0., 0.}, {2., -1.}, {0.5, 0.}, {2., 1.}}, 10.);
+  EXPECT_EQ(sharp_places<2>(arrow, 0.5).size(), 3u);
 }
 
 TEST(ToolScene, RefusesWhatIsNoTool)

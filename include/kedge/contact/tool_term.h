@@ -2,6 +2,7 @@
 #define kedge_contact_tool_term_h
 
 #include <kedge/contact/contact_picture.h>
+#include <kedge/contact/tool_edges.h>
 #include <kedge/contact/tool_penetration.h>
 #include <kedge/contact/tool_samples.h>
 #include <kedge/equations/term.h>
@@ -97,7 +98,7 @@ namespace kedge
     show(ContactPicture<dim> &picture) const override;
 
   private:
-    using Sample = typename ToolSamples<dim>::Sample;
+    using Sample = typename ToolSide<dim>::Sample;
 
     void
     move(const Trial<dim> &trial);
@@ -110,15 +111,17 @@ namespace kedge
     bool
     update_multipliers();
     void
-    add_sample(const ToolSamples<dim>     &side,
+    add_sample(const ToolSide<dim>        &side,
                const Sample               &sample,
                const ContactResponse<dim> &response,
                const bool                  to_be_held,
                Tangent<dim>               &tangent) const;
     Answer
-    finish(ToolSamples<dim> &side, const double dt);
+    too_deep(const ToolSide<dim> &side, const Sample &sample, const double overlap) const;
+    Answer
+    finish(ToolSide<dim> &side, const double dt);
     ContactPlace<dim>
-    place_of(const ToolSamples<dim> &side, const Sample &sample, const double dt) const;
+    place_of(const ToolSide<dim> &side, const Sample &sample, const double dt) const;
 
     const ContactParameters                 parameters;
     RigidBodies<dim>                       &rigid;
@@ -126,8 +129,10 @@ namespace kedge
     const double                            cell_size;
     const bool                              at_rest;
     ShearLimit<dim>                         shear_limit;
-    std::unique_ptr<const FacetSearch<dim>> search;          ///< in the tool's axes
-    std::vector<ToolSamples<dim>>           sides;           ///< one per body
+    std::unique_ptr<const FacetSearch<dim>> search; ///< in the tool's axes
+    std::vector<SharpPlace<dim>>            edges;  ///< in the tool's axes
+    /** Of each body two: its surface's facets and the tool's edges. */
+    std::vector<std::unique_ptr<ToolSide<dim>>> sides;
     std::vector<ContactPlace<dim>> places, committed_places; ///< of the attempt, of the last step
     double            released = 0.; ///< energy of samples that no longer look here [J]
     unsigned int      n_passes = 0, n_updates = 0, n_tangents = 0, n_follows = 0;
