@@ -235,6 +235,8 @@ namespace kedge
             return report;
           }
       }
+    // a step that begins in balance has no larger residual that it could be compared with
+    report.converged = report.converged || evaluation.residual_norm <= accurate * evaluation.scale;
     if (report.converged)
       return report;
     report.cause = "no convergence in " + std::to_string(parameters.max_iterations) +

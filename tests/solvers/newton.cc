@@ -77,6 +77,26 @@ namespace
   }
 } // namespace
 
+// A step that begins in balance: what is left is the round-off of its terms, 3e-13 of their size,
+// and corrections only turn it over. A hundred times as large a residual that does not fall is a
+// failure.
+TEST(SolversNewton, AStateInBalanceIsConverged)
+{
+  for (const double floor : {3e-13, 3e-11})
+    {
+      Scalar problem(
+        [&](double x) {
+          return x > 0. ? floor : -floor;
+        },
+        [](double) {
+          return 1.;
+        },
+        0.4 * floor);
+      const NewtonReport report = solve_newton(problem, NewtonParameters());
+      EXPECT_EQ(report.converged, floor < 1e-12) << report.cause;
+    }
+}
+
 TEST(SolversNewton, ConvergesQuadratically)
 {
   // x e^x = 1: x = 0.567143290409784, the omega constant
