@@ -29,6 +29,12 @@ kedge_add_scene_test(path.triaxial_drained.critical prm/paths/triaxial_drained.p
 
 # --- Limit loads and initial states -------------------------------------------------
 kedge_add_scene_test(scene.cavity_cylinder prm/cavity_cylinder.prm)
+# past the largest pressure, at 1.4, without a mandrel
+kedge_add_scene_test(scene.cavity_cylinder.load_control prm/cavity_cylinder.prm
+  SET "Constants/n = 2" "Constants/ratio = 1.58" "Constants/p = 37052" "Bodies/clay/Basis = gimp"
+    "Tractions/mandrel/Pressure = su*t" "Load control/Body = clay" "Load control/Place = R, h/8"
+    "Constants/R = a + h/8" "Load control/Direction = 1, 0"
+    "Load control/Displacement = sqrt(R^2 + (ratio^2 - 1)*a^2*t) - R")
 kedge_add_scene_test(scene.cavity_sphere prm/cavity_sphere.prm TIMEOUT 200)
 # limit loads: found as the answer, or where a run without one stops
 kedge_add_scene_test(scene.vertical_cut prm/vertical_cut.prm)
@@ -89,12 +95,18 @@ kedge_add_scene_test(scene.strip_friction prm/strip_friction.prm)
 kedge_add_scene_test(scene.strip_weight prm/strip_weight.prm)
 kedge_add_scene_test(scene.strip_weight.rough prm/strip_weight.prm
   SET "Node conditions/footing/Component x = fixed" "Constants/q_u = 235.81e3" "Constants/w = 1e-3")
+kedge_add_scene_test(scene.strip_weight.alone prm/strip_weight.prm
+  SET "Constants/c = 50" "Constants/q = 0" "Constants/q_u = 42.117e3" "Constants/E = 1e10"
+    "Constants/w = 1.2e-5*B" "Constants/L = 2" "Constants/D = 1" "Constants/edge = 1"
+    "Time/Scheme = quasi-static" "Constants/books = 0.05")
 kedge_add_scene_test(scene.circle_clay prm/circle_clay.prm)
 kedge_add_scene_test(scene.circle_clay.rough prm/circle_clay.prm
   SET "Node conditions/footing/Component x = fixed" "Node conditions/footing/Component z = fixed"
     "Constants/N = 6.04842")
 kedge_add_scene_test(scene.retaining_wall prm/retaining_wall.prm)
 kedge_add_scene_test(scene.retaining_wall.smooth prm/retaining_wall.prm
-  SET "Constants/delta = 0" "Constants/K_p = 3")
+  SET "Constants/delta = 0" "Constants/K = 3")
+kedge_add_scene_test(scene.retaining_wall.gives_way prm/retaining_wall.prm
+  SET "Constants/side = -1" "Constants/K = 0.291146" "Constants/w = 1e-5*H" "Constants/L = 2*H")
 # pore pressures of the scene's own cells are minutes: coarser, by their own tolerance
 kedge_add_scene_test(scene.set_up prm/set_up.prm SET "Constants/n = 2")

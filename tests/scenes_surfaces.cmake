@@ -39,9 +39,24 @@ kedge_add_scene_test(scene.load_control.clc prm/load_control.prm
   SET "Time/Scheme = clc-quasi-static" "Constants/a = 2.7" "Time/Step = 0.01"
     "Checks/books/Quantity = max_abs(history.energy_error)" "Checks/books/Scale = 1e6"
     "Checks/books/Reference = 0" "Checks/books/Tolerance = 1e-9" "Checks/books/Source = conservation")
+# a pressure on the present area: another power of the stretch, and past the largest one where the area stays
+kedge_add_scene_test(scene.load_control.suction prm/load_control.prm COMPARE_RANKS 1e-6
+  SET "Tractions/end/Traction = " "Tractions/end/Pressure = -E_*t"
+    "Constants/m = (1 - 2*nu)/(1 - nu)"
+    "Checks/newton/Quantity = maximum(history.newton_iterations)" "Checks/newton/Reference = 3"
+    "Checks/newton/Tolerance = 1e-9" "Checks/newton/Source = quadratic, if the border is right")
+kedge_add_scene_test(scene.load_control.suction.peak prm/load_control.prm
+  SET "Tractions/end/Traction = " "Tractions/end/Pressure = -E_*t" "Constants/nu = 0"
+    "Constants/a = 2.8")
+kedge_add_scene_test(scene.load_control.suction.clc prm/load_control.prm
+  SET "Tractions/end/Traction = " "Tractions/end/Pressure = -E_*t" "Constants/a = 2"
+    "Time/Scheme = clc-quasi-static" "Constants/m = (1 - 2*nu)/(1 - nu)"
+    "Checks/largest load/Tolerance = 1 %" "Checks/load at the end/Tolerance = 1 %"
+    "Checks/books/Quantity = max_abs(history.energy_error)" "Checks/books/Scale = 1e6"
+    "Checks/books/Reference = 0" "Checks/books/Tolerance = 1e-9" "Checks/books/Source = conservation")
 kedge_add_scene_test(refusal.load_control_without_load prm/load_control.prm
   SET "Tractions/end/Traction = E_; 0" EXPECT_EXIT 2
-  EXPECT_STDOUT "no Body force, Point load or Traction changes with t" EXPECT_STDERR "^$" LABELS refusal)
+  EXPECT_STDOUT "no Body force, Point load, Traction or Pressure changes with t" EXPECT_STDERR "^$" LABELS refusal)
 # what moves a body goes with it: uniform stress under platens through 25 cells, at any place
 # (on two ranks by the scenes' own checks: reactions of 0 are round-off, which cannot be compared)
 # (its faces are as long as the block is wide: 1.07 m)

@@ -29,10 +29,6 @@ namespace kedge
                "Linear solver/Method = auto or direct.");
       if (!scene.rigid_bodies.empty())
         refuse("Rigid bodies have loads of their own, which follow the time.");
-      for (const auto &traction : scene.tractions)
-        if (!traction.pressure.empty())
-          refuse("Tractions/" + traction.name +
-                 "/Pressure follows its face and not the load factor: take a Traction.");
       for (const auto &condition : scene.body_conditions)
         for (const auto &line : condition.lines)
           if (!line.force.empty())
@@ -48,25 +44,26 @@ namespace kedge
   SectionDeclaration
   declare_load_control(const ValuePatterns<dim> &allow)
   {
-    return {"Load control",
-            "Dead loads are found instead of given, from how a material point moves: so a "
-            "quasi-static run passes a limit load and follows the fall behind it. Body force, "
-            "Point loads and Traction are then taken at the load factor in place of t, which is a "
-            "column of history.csv; it begins at Time/Start.",
-            SectionKind::plain,
-            {{"Body",
-              "",
-              allow.text("the name of a section of Bodies").or_empty(),
-              "Of the point; empty: loads follow t."},
-             {"Place",
-              "",
-              allow.vector().or_empty(),
-              "The material point nearest to it at the start is followed [m]."},
-             {"Direction", "", allow.vector().or_empty(), "In which the point moves [-]."},
-             {"Displacement",
-              "",
-              allow.expression({"t"}, "t").or_empty(),
-              "Of the point along it since the start; it should grow steadily [m]."}}};
+    return {
+      "Load control",
+      "Loads are found instead of given, from how a material point moves: so a "
+      "quasi-static run passes a limit load and follows the fall behind it. Body force, "
+      "Point loads, Traction and Pressure are then taken at the load factor in place of t, which is a "
+      "column of history.csv; it begins at Time/Start.",
+      SectionKind::plain,
+      {{"Body",
+        "",
+        allow.text("the name of a section of Bodies").or_empty(),
+        "Of the point; empty: loads follow t."},
+       {"Place",
+        "",
+        allow.vector().or_empty(),
+        "The material point nearest to it at the start is followed [m]."},
+       {"Direction", "", allow.vector().or_empty(), "In which the point moves [-]."},
+       {"Displacement",
+        "",
+        allow.expression({"t"}, "t").or_empty(),
+        "Of the point along it since the start; it should grow steadily [m]."}}};
   }
 
 

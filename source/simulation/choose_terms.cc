@@ -111,12 +111,12 @@ namespace kedge
       scheme));
     load_terms.push_back(&loads);
     if (!following.empty())
-      add_term(std::make_unique<FollowerTerm<dim>>(
+      load_terms.push_back(&add_term(std::make_unique<FollowerTerm<dim>>(
         field,
         patch,
         FollowerPressures<dim>(following, scene.constants, program, surface_terms),
         bodies.names,
-        scheme));
+        scheme)));
     return loads;
   }
 

@@ -238,11 +238,11 @@ namespace kedge
                                   const FollowerPressures<dim>   &pressures,
                                   const std::vector<std::string> &body_names,
                                   const Scheme                   &scheme)
-    : field(field)
+    : ControlledLoads<dim>(scheme)
+    , field(field)
     , patch(patch)
     , pressures(pressures)
     , body_names(body_names)
-    , scheme(scheme)
     , alpha(scheme.conserving_stress ? 0.5 : scheme.alpha_f)
   {}
 
@@ -289,7 +289,7 @@ namespace kedge
                pressures,
                trial.displacement(field),
                alpha,
-               scheme.load_time(trial.times.t_n, trial.times.dt),
+               this->balance_time(trial),
                [&](const unsigned int, const auto &face, const dealii::Tensor<1, dim> &force) {
                  for (std::size_t A = 0; A < face.local.size(); ++A)
                    for (int d = 0; d < dim; ++d)
@@ -324,7 +324,7 @@ namespace kedge
   void
   FollowerTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    const double t      = scheme.load_time(trial.times.t_n, trial.times.dt);
+    const double t      = this->balance_time(trial);
     const double length = part_for_slope * patch.grid().lattice().smallest_cell_size();
     for (const auto &face : pressures.points())
       dispatch_pattern<dim>(face.functions.pattern,
@@ -341,6 +341,61 @@ namespace kedge
 
 
   template <int dim>
+  std::vector<double>
+  FollowerTerm<dim>::slope_at_nodes(const Trial<dim> &trial) const
+  {
+    const double        l          = this->balance_time(trial);
+    const double        difference = this->small_difference(l);
+    std::vector<double> sums(std::size_t(patch.nodes.n_local()) * dim, 0.);
+    for (const double sign : {1., -1.})
+      for_forces(patch,
+                 pressures,
+                 trial.displacement(field),
+                 alpha,
+                 l + sign * difference,
+                 [&](const unsigned int, const auto &face, const dealii::Tensor<1, dim> &force) {
+                   for (std::size_t A = 0; A < face.local.size(); ++A)
+                     for (int d = 0; d < dim; ++d)
+                       sums[std::size_t(face.local[A]) * dim + d] +=
+                         sign / (2. * difference) * face.at_face.value[A] * force[d];
+                 });
+    patch.ties.restrict_sums(sums);
+    patch.nodes.add_to_owners(sums, dim);
+    return sums;
+  }
+
+
+
+  template <int dim>
+  double
+  FollowerTerm<dim>::square_of_slope(const Trial<dim> &trial) const
+  {
+    const std::vector<double> slope = slope_at_nodes(trial);
+    double                    sum   = 0.;
+    for (std::size_t i = 0; i < patch.nodes.n_owned() * dim; ++i)
+      sum += slope[i] * slope[i];
+    return sum;
+  }
+
+
+
+  template <int dim>
+  void
+  FollowerTerm<dim>::add_slope(const Trial<dim>   &trial,
+                               const double        s,
+                               const UnknownIndex &x,
+                               Tangent<dim>       &tangent) const
+  {
+    const std::vector<double> slope = slope_at_nodes(trial);
+    for (unsigned int node = 0; node < patch.nodes.n_owned(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (const double value = slope[std::size_t(node) * dim + d]; value != 0.)
+          tangent.add({field, node, d}, x, -s * value);
+  }
+
+
+
+  template <int dim>
   void
   FollowerTerm<dim>::book(const Trial<dim> &trial, const Residual<dim> &, Ledger &ledger) const
   {
@@ -350,7 +405,7 @@ namespace kedge
                pressures,
                u,
                0.5,
-               trial.times.t_n + 0.5 * trial.times.dt,
+               this->middle_time(trial),
                [&](const unsigned int, const auto &face, const dealii::Tensor<1, dim> &f) {
                  for (std::size_t A = 0; A < face.local.size(); ++A)
                    for (int d = 0; d < dim; ++d)
@@ -360,7 +415,7 @@ namespace kedge
                pressures,
                u,
                alpha,
-               scheme.load_time(trial.times.t_n, trial.times.dt),
+               this->balance_time(trial),
                [&](const unsigned int surface, const auto &, const dealii::Tensor<1, dim> &f) {
                  for (int d = 0; d < dim && pressures.shows_resultant(surface); ++d)
                    ledger.book(resultants[surface * dim + d], f[d]);

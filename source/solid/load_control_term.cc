@@ -5,14 +5,14 @@
 namespace kedge
 {
   template <int dim>
-  LoadControlTerm<dim>::LoadControlTerm(const LoadControlParameters<dim>    &control,
-                                        const std::map<std::string, double> &constants,
-                                        const std::vector<std::string>      &body_names,
-                                        const unsigned int                   field,
-                                        const Patch<dim>                    &patch,
-                                        const double                         stiffness,
-                                        const double                         start,
-                                        const std::vector<LoadTerm<dim> *>  &loads)
+  LoadControlTerm<dim>::LoadControlTerm(const LoadControlParameters<dim>          &control,
+                                        const std::map<std::string, double>       &constants,
+                                        const std::vector<std::string>            &body_names,
+                                        const unsigned int                         field,
+                                        const Patch<dim>                          &patch,
+                                        const double                               stiffness,
+                                        const double                               start,
+                                        const std::vector<ControlledLoads<dim> *> &loads)
     : control(control)
     , displacement(control.displacement, {"t"}, constants)
     , body_names(body_names)
@@ -22,7 +22,7 @@ namespace kedge
     , loads(loads)
     , factor_n(start)
   {
-    for (LoadTerm<dim> *term : loads)
+    for (ControlledLoads<dim> *term : loads)
       term->follow(*this);
   }
 
@@ -103,11 +103,11 @@ namespace kedge
 
   template <int dim>
   double
-  LoadControlTerm<dim>::norm_of_slope() const
+  LoadControlTerm<dim>::norm_of_slope(const Trial<dim> &trial) const
   {
     double square = 0.;
-    for (const LoadTerm<dim> *term : loads)
-      square += term->square_of_slope(factor_n);
+    for (const ControlledLoads<dim> *term : loads)
+      square += term->square_of_slope(trial);
     return std::sqrt(dealii::Utilities::MPI::sum(square, patch.nodes.communicator()));
   }
 
@@ -117,7 +117,8 @@ namespace kedge
   void
   LoadControlTerm<dim>::start(Trial<dim> &trial)
   {
-    const double norm = norm_of_slope();
+    scale             = 0.; // at which the loads are those of the last step
+    const double norm = norm_of_slope(trial);
     scale             = norm > 0. ? stiffness / norm : 0.;
     demand = displacement({trial.times.t_n + trial.times.dt}) - displacement({trial.times.t_n});
   }
@@ -151,9 +152,10 @@ namespace kedge
   LoadControlTerm<dim>::add_residual(const Trial<dim> &trial, Residual<dim> &residual)
   {
     if (scale == 0.)
-      return Answer::failure("Load control: no Body force, Point load or Traction changes with t "
-                             "at the load factor " +
-                             std::to_string(factor_n));
+      return Answer::failure(
+        "Load control: no Body force, Point load, Traction or Pressure changes with t "
+        "at the load factor " +
+        std::to_string(factor_n));
     residual.others()[unknown] += stiffness * ((is_first() ? demand : 0.) - moved(trial));
     return {};
   }
@@ -169,8 +171,8 @@ namespace kedge
       for (unsigned int d = 0; d < dim; ++d)
         if (const double weight = weights[std::size_t(node) * dim + d]; weight != 0.)
           tangent.add(x, {field, node, d}, -stiffness * weight);
-    for (const LoadTerm<dim> *term : loads)
-      term->add_slope(at_balance(trial), scale, x, tangent);
+    for (const ControlledLoads<dim> *term : loads)
+      term->add_slope(trial, scale, x, tangent);
   }
 
 

@@ -12,13 +12,13 @@ namespace kedge
                           const std::vector<std::string> &body_names,
                           const MotionTerm<dim>          &motion,
                           const Scheme                   &scheme)
-    : field(field)
+    : ControlledLoads<dim>(scheme)
+    , field(field)
     , patch(patch)
     , loads(loads)
     , tractions(tractions)
     , body_names(body_names)
     , motion(motion)
-    , scheme(scheme)
     , on_faces{&this->tractions}
   {}
 
@@ -95,15 +95,6 @@ namespace kedge
 
 
 
-  namespace
-  {
-    /** Difference of load factors for the loads' derivative, over their size: linear loads have
-     * it to round-off, others to 1e-8. */
-    constexpr double small = 1e-4;
-  } // namespace
-
-
-
   /** df_ext/dl, complete at the owned nodes. */
   template <int dim>
   std::vector<double>
@@ -111,7 +102,7 @@ namespace kedge
   {
     if (empty())
       return {};
-    const double              difference = small * std::max(1., std::abs(l));
+    const double              difference = this->small_difference(l);
     std::vector<double>       slope      = at_nodes(l + difference);
     const std::vector<double> before     = at_nodes(l - difference);
     for (std::size_t i = 0; i < slope.size(); ++i)
@@ -123,9 +114,9 @@ namespace kedge
 
   template <int dim>
   double
-  LoadTerm<dim>::square_of_slope(const double l) const
+  LoadTerm<dim>::square_of_slope(const Trial<dim> &trial) const
   {
-    const std::vector<double> slope = slope_at_nodes(l);
+    const std::vector<double> slope = slope_at_nodes(this->balance_time(trial));
     double                    sum   = 0.;
     for (std::size_t i = 0; i < patch.nodes.n_owned() * dim && !slope.empty(); ++i)
       sum += slope[i] * slope[i];
@@ -136,40 +127,16 @@ namespace kedge
 
   template <int dim>
   void
-  LoadTerm<dim>::add_slope(const double        l,
+  LoadTerm<dim>::add_slope(const Trial<dim>   &trial,
                            const double        s,
                            const UnknownIndex &x,
                            Tangent<dim>       &tangent) const
   {
-    const std::vector<double> slope = slope_at_nodes(l);
+    const std::vector<double> slope = slope_at_nodes(this->balance_time(trial));
     for (unsigned int node = 0; node < patch.nodes.n_owned() && !slope.empty(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         if (const double value = slope[std::size_t(node) * dim + d]; value != 0.)
           tangent.add({field, node, d}, x, -s * value);
-  }
-
-
-
-  /** t or l at which the balance has its loads. */
-  template <int dim>
-  double
-  LoadTerm<dim>::balance_time(const Trial<dim> &trial) const
-  {
-    return load_factor != nullptr ? load_factor->at_balance(trial)
-                                  : scheme.load_time(trial.times.t_n, trial.times.dt);
-  }
-
-
-
-  /** t or l at which they are as they work: in the middle of the step. */
-  template <int dim>
-  double
-  LoadTerm<dim>::middle_time(const Trial<dim> &trial) const
-  {
-    if (load_factor == nullptr)
-      return trial.times.t_n + 0.5 * trial.times.dt;
-    const double start = load_factor->at_start();
-    return start + 0.5 / scheme.load_time(0., 1.) * (load_factor->at_balance(trial) - start);
   }
 
 
@@ -180,7 +147,7 @@ namespace kedge
   {
     external_force.clear();
     if (!empty())
-      external_force = at_nodes(balance_time(trial));
+      external_force = at_nodes(this->balance_time(trial));
   }
 
 
@@ -191,8 +158,8 @@ namespace kedge
   {
     if (external_force.empty())
       return {};
-    if (load_factor != nullptr)
-      external_force = at_nodes(balance_time(trial));
+    if (this->is_controlled())
+      external_force = at_nodes(this->balance_time(trial));
     add_external_force(residual);
     return {};
   }
@@ -231,7 +198,7 @@ namespace kedge
     if (empty())
       return;
     double       sum    = 0.;
-    const double middle = middle_time(trial);
+    const double middle = this->middle_time(trial);
     const auto   forces = forces_at(middle);
     for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
       sum += forces[slot] * motion.displacements()[slot];
@@ -241,7 +208,7 @@ namespace kedge
                                  surface->forces(middle),
                                  trial.displacement(field));
     ledger.book(work, sum);
-    const auto on_tractions = tractions.forces(balance_time(trial));
+    const auto on_tractions = tractions.forces(this->balance_time(trial));
     for (std::size_t f = 0; f < on_tractions.size(); ++f)
       {
         const unsigned int surface = tractions.points()[f].surface;

@@ -129,7 +129,7 @@ namespace kedge
     std::vector<PointOrigin<dim>>         generated;
     std::vector<std::string>              stress_notes;
     std::vector<const SurfaceTerm<dim> *> surface_terms; ///< come first
-    std::vector<LoadTerm<dim> *>          load_terms;    ///< one per field
+    std::vector<ControlledLoads<dim> *>   load_terms;    ///< of all fields
     RigidBodies<dim> *rigid_bodies  = nullptr;           ///< of their term; none if there are none
     std::size_t       n_field_terms = 0;                 ///< of single fields; others come behind
   };

@@ -2,6 +2,7 @@
 #define kedge_solid_follower_term_h
 
 #include <kedge/equations/term.h>
+#include <kedge/solid/load_factor.h>
 #include <kedge/solid/surface_loads.h>
 
 namespace kedge
@@ -47,10 +48,13 @@ namespace kedge
    * A the displacement gradient of the step at the face's point (on facets: at the place itself),
    * alpha the fraction of the displacement at which the balance is stated (1/2 for the conserving
    * stress). The tangent is exact, unsymmetric at the edges of the loaded surface. Books the work
-   * of f in the middle of the step.
+   * of f in the middle of the step. Where the pressures follow a load factor l they are taken at t
+   * = l.
    */
   template <int dim>
-  class FollowerTerm : public Term<dim>
+  class FollowerTerm
+    : public Term<dim>
+    , public ControlledLoads<dim>
   {
   public:
     FollowerTerm(const unsigned int              field,
@@ -58,6 +62,15 @@ namespace kedge
                  const FollowerPressures<dim>   &pressures,
                  const std::vector<std::string> &body_names,
                  const Scheme                   &scheme);
+
+    double
+    square_of_slope(const Trial<dim> &trial) const override;
+
+    void
+    add_slope(const Trial<dim>   &trial,
+              const double        s,
+              const UnknownIndex &x,
+              Tangent<dim>       &tangent) const override;
 
     std::string
     name() const override
@@ -87,11 +100,14 @@ namespace kedge
     book(const Trial<dim> &trial, const Residual<dim> &residual, Ledger &ledger) const override;
 
   private:
+    /** df/dl, complete at the owned nodes. */
+    std::vector<double>
+    slope_at_nodes(const Trial<dim> &trial) const;
+
     const unsigned int             field;
     const Patch<dim>              &patch;
     FollowerPressures<dim>         pressures;
     const std::vector<std::string> body_names;
-    const Scheme                   scheme;
     const double                   alpha; ///< of the balance
     Ledger::Index                  work = 0;
     std::vector<Ledger::Index>     resultants; ///< dim per surface; 0 where not shown

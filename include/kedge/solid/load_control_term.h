@@ -2,13 +2,14 @@
 #define kedge_solid_load_control_term_h
 
 #include <kedge/base/expression.h>
-#include <kedge/solid/load_term.h>
+#include <kedge/equations/term.h>
+#include <kedge/solid/load_factor.h>
 #include <kedge/solid/parameters.h>
 
 namespace kedge
 {
   /**
-   * Dead loads that are found instead of given: they are taken at a load factor l in place of the
+   * Loads that are found instead of given: they are taken at a load factor l in place of the
    * time, and l is the unknown of one more equation,
    *   d . (u_p(t + dt) - u_p(t)) = g(t + dt) - g(t),
    * which says how a material point p moves along a direction d. So a run goes over a largest load
@@ -32,14 +33,14 @@ namespace kedge
      * @param start     of the run, l at first
      * @param loads     of all fields; they follow l from now on and last as long as this
      */
-    LoadControlTerm(const LoadControlParameters<dim>    &control,
-                    const std::map<std::string, double> &constants,
-                    const std::vector<std::string>      &body_names,
-                    const unsigned int                   field,
-                    const Patch<dim>                    &patch,
-                    const double                         stiffness,
-                    const double                         start,
-                    const std::vector<LoadTerm<dim> *>  &loads);
+    LoadControlTerm(const LoadControlParameters<dim>          &control,
+                    const std::map<std::string, double>       &constants,
+                    const std::vector<std::string>            &body_names,
+                    const unsigned int                         field,
+                    const Patch<dim>                          &patch,
+                    const double                               stiffness,
+                    const double                               start,
+                    const std::vector<ControlledLoads<dim> *> &loads);
 
     std::string
     name() const override
@@ -96,24 +97,24 @@ namespace kedge
     moved(const Trial<dim> &trial) const;
     /** The derivative of the loads by l has this norm [N; N/m in 2D] (collective). */
     double
-    norm_of_slope() const;
+    norm_of_slope(const Trial<dim> &trial) const;
     bool
     is_first() const;
 
-    const LoadControlParameters<dim>   control;
-    const Expression                   displacement; ///< g(t) [m]
-    const std::vector<std::string>     body_names;
-    const unsigned int                 field;
-    const Patch<dim>                  &patch;
-    const double                       stiffness;
-    const std::vector<LoadTerm<dim> *> loads;
-    std::uint64_t                      point   = 0; ///< its id
-    unsigned int                       unknown = 0; ///< number of x
-    double                             factor_n;    ///< l at the balance of the last step
-    double                             scale  = 0.; ///< s [1/m]
-    double                             demand = 0.; ///< g(t + dt) - g(t) [m]
-    std::vector<double>                weights;     ///< N_A(x_p) d, dim values per local node
-    Ledger::Index                      load_factor = 0, point_displacement = 0;
+    const LoadControlParameters<dim>          control;
+    const Expression                          displacement; ///< g(t) [m]
+    const std::vector<std::string>            body_names;
+    const unsigned int                        field;
+    const Patch<dim>                         &patch;
+    const double                              stiffness;
+    const std::vector<ControlledLoads<dim> *> loads;
+    std::uint64_t                             point   = 0; ///< its id
+    unsigned int                              unknown = 0; ///< number of x
+    double                                    factor_n;    ///< l at the balance of the last step
+    double                                    scale  = 0.; ///< s [1/m]
+    double                                    demand = 0.; ///< g(t + dt) - g(t) [m]
+    std::vector<double>                       weights; ///< N_A(x_p) d, dim values per local node
+    Ledger::Index                             load_factor = 0, point_displacement = 0;
   };
 } // namespace kedge
 

@@ -3,32 +3,21 @@
 
 #include <kedge/equations/term.h>
 #include <kedge/solid/external_loads.h>
+#include <kedge/solid/load_factor.h>
 #include <kedge/solid/surface_loads.h>
 #include <kedge/transfer/motion_term.h>
 
 namespace kedge
 {
-  /** The load factor l that dead loads follow where it is found and not given by the time. */
-  template <int dim>
-  class LoadFactor
-  {
-  public:
-    virtual ~LoadFactor() = default;
-    /** l of the last step, or at the start. */
-    virtual double
-    at_start() const = 0;
-    /** l of a trial, at the time of the balance. */
-    virtual double
-    at_balance(const Trial<dim> &trial) const = 0;
-  };
-
   /**
    * The external forces on the points and outer faces of a field, f_ext at the load time of the
    * scheme. Books their work: that of their value in the middle of the step. Where they follow
    * a load factor l they are taken at t = l.
    */
   template <int dim>
-  class LoadTerm : public Term<dim>
+  class LoadTerm
+    : public Term<dim>
+    , public ControlledLoads<dim>
   {
   public:
     /** @param motion of the points, whose displacements the forces work on */
@@ -47,20 +36,14 @@ namespace kedge
       on_faces.push_back(&forces);
     }
 
-    /** From now on the forces follow a load factor, which must last as long as this. */
-    void
-    follow(const LoadFactor<dim> &factor)
-    {
-      load_factor = &factor;
-    }
-
-    /** |df_ext/dl|^2 at the owned nodes [N^2; N^2/m^2 in 2D] (collective). */
     double
-    square_of_slope(const double l) const;
+    square_of_slope(const Trial<dim> &trial) const override;
 
-    /** Adds the column -s df_ext/dl of an unknown with l = l_n + s x (collective). */
     void
-    add_slope(const double l, const double s, const UnknownIndex &x, Tangent<dim> &tangent) const;
+    add_slope(const Trial<dim>   &trial,
+              const double        s,
+              const UnknownIndex &x,
+              Tangent<dim>       &tangent) const override;
 
     const ExternalLoads<dim> &
     external_loads() const
@@ -106,10 +89,6 @@ namespace kedge
     slope_at_nodes(const double l) const;
     void
     add_external_force(Residual<dim> &residual) const;
-    double
-    balance_time(const Trial<dim> &trial) const;
-    double
-    middle_time(const Trial<dim> &trial) const;
 
     const unsigned int                     field;
     const Patch<dim>                      &patch;
@@ -117,11 +96,9 @@ namespace kedge
     SurfaceTractions<dim>                  tractions;
     const std::vector<std::string>         body_names;
     const MotionTerm<dim>                 &motion;
-    const Scheme                           scheme;
     std::vector<const SurfaceLoads<dim> *> on_faces;       ///< tractions and others
     std::vector<double>                    external_force; ///< at the owned nodes [N]
-    const LoadFactor<dim>                 *load_factor = nullptr;
-    Ledger::Index                          work        = 0;
+    Ledger::Index                          work = 0;
     std::vector<Ledger::Index>             resultants; ///< dim per traction; 0 where not shown
   };
 } // namespace kedge
