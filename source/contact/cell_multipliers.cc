@@ -5,41 +5,104 @@
 
 namespace kedge
 {
+  namespace
+  {
+    /** 2 d + 1 if the largest component of a direction is a positive one along d, else 2 d. */
+    template <int dim>
+    unsigned int
+    side_of(const dealii::Tensor<1, dim> &direction)
+    {
+      unsigned int along = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(direction[d]) > std::abs(direction[along]))
+          along = d;
+      return 2 * along + (direction[along] > 0. ? 1 : 0);
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
-  CellMultipliers<dim>::add(const dealii::Point<dim>   &place,
-                            const double                area,
-                            const ContactLaw           &law,
-                            double                     &multiplier,
-                            dealii::Tensor<1, dim>     &slip,
-                            const ContactResponse<dim> &response)
+  CellMultipliers<dim>::add(const dealii::Point<dim>     &place,
+                            const double                  area,
+                            const dealii::Tensor<1, dim> &normal,
+                            const ContactLaw             &law,
+                            double                       &multiplier,
+                            dealii::Tensor<1, dim>       &slip,
+                            const ContactResponse<dim>   &response)
   {
     const bool presses = response.pressure > 0.;
-    places.push_back({lattice.cell_of(place),
+    places.push_back({{lattice.cell_of(place), side_of(normal)},
+                      place,
                       presses,
+                      response.sticks,
                       &multiplier,
                       law.normal_stiffness,
                       &slip,
-                      response.slip_end});
+                      response.slip_end,
+                      normal});
     if (!presses)
       return;
-    Sums &here = sums[places.back().cell];
+    Gap &here = gaps[places.back().key];
     here.area += area;
-    here.gap += area * (multiplier - response.pressure) / law.normal_stiffness;
+    here.sum += area * (multiplier - response.pressure) / law.normal_stiffness;
     if (response.sticks)
-      largest_creep = std::max(largest_creep, (response.slip_end - slip).norm());
+      for_nodes(places.back(), [&](const Key &node, const double N) {
+        Creep &there = creeps[node];
+        there.area += N * area;
+        there.sum += N * area * (response.slip_end - slip);
+      });
+  }
+
+
+
+  template <int dim>
+  template <typename F>
+  void
+  CellMultipliers<dim>::for_nodes(const Place &place, const F &f) const
+  {
+    for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+      {
+        Key    node = place.key;
+        double N    = 1.;
+        for (int d = 0; d < dim; ++d)
+          {
+            const double s        = lattice.scaled(place.at[d], d) - place.key.first[d];
+            const bool   is_upper = (corner >> d) & 1u;
+            N *= is_upper ? s : 1. - s;
+            node.first[d] += is_upper;
+          }
+        if (N > 0.)
+          f(node, N);
+      }
   }
 
 
 
   template <int dim>
   double
-  CellMultipliers<dim>::largest_violation() const
+  CellMultipliers<dim>::largest_gap() const
   {
-    double largest = largest_creep;
-    for (const auto &[cell, here] : sums)
-      largest = std::max(largest, std::abs(here.gap) / here.area);
+    double largest = 0.;
+    for (const auto &[cell, gap] : gaps)
+      largest = std::max(largest, std::abs(gap.sum) / gap.area);
     return largest;
+  }
+
+
+
+  template <int dim>
+  double
+  CellMultipliers<dim>::largest_creep() const
+  {
+    double largest = 0., largest_area = 0.;
+    for (const auto &[node, creep] : creeps)
+      {
+        largest      = std::max(largest, creep.sum.norm());
+        largest_area = std::max(largest_area, creep.area);
+      }
+    return largest_area > 0. ? largest / largest_area : 0.;
   }
 
 
@@ -55,10 +118,19 @@ namespace kedge
             *place.multiplier = 0.;
             continue;
           }
-        const Sums &here = sums.at(place.cell);
-        *place.multiplier =
-          std::max(*place.multiplier - place.stiffness * here.gap / here.area, 0.);
-        *place.slip = place.slip_end;
+        const Gap &gap    = gaps.at(place.key);
+        *place.multiplier = std::max(*place.multiplier - place.stiffness * gap.sum / gap.area, 0.);
+        if (!place.sticks)
+          {
+            *place.slip = place.slip_end;
+            continue;
+          }
+        dealii::Tensor<1, dim> creep;
+        for_nodes(place, [&](const Key &node, const double N) {
+          const Creep &there = creeps.at(node);
+          creep += N / there.area * there.sum;
+        });
+        *place.slip += creep - (creep * place.normal) * place.normal;
       }
   }
 

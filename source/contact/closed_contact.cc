@@ -1,3 +1,4 @@
+#include <kedge/base/exceptions.h>
 #include <kedge/contact/closed_contact.h>
 
 #include <algorithm>
@@ -36,11 +37,31 @@ namespace kedge
 
 
 
+  std::vector<double>::const_iterator
+  first_record(const std::vector<double> &saved, const std::size_t width)
+  {
+    if (saved.empty() || saved.front() != double(width) || (saved.size() - 1) % width != 0)
+      throw UserError("The checkpoint was written by another version of kedge, whose contacts "
+                      "remember other values. Resume with that version, or start afresh without "
+                      "--resume.");
+    return saved.begin() + 1;
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    constexpr std::size_t width_of_record = 5 + 2 * dim;
+  }
+
+
+
   template <int dim>
   std::vector<double>
   saved(const ContactMemory<dim> &memory)
   {
-    std::vector<double> result;
+    std::vector<double> result{double(width_of_record<dim>)};
     for (const auto &[facet, last] : memory)
       {
         result.insert(result.end(),
@@ -57,10 +78,9 @@ namespace kedge
   ContactMemory<dim>
   restored(const std::vector<double> &saved, const ContactLaw &law, const bool to_gaps)
   {
-    constexpr std::size_t width = 5 + 2 * dim;
-    AssertThrow(saved.size() % width == 0, dealii::ExcInternalError());
     ContactMemory<dim> memory;
-    for (auto next = saved.begin(); next != saved.end(); next += width)
+    constexpr auto     width = width_of_record<dim>;
+    for (auto next = first_record(saved, width); next != saved.end(); next += width)
       {
         PartneredContact<dim> last;
         last.partner    = static_cast<unsigned int>(next[1]);

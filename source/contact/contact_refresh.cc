@@ -58,7 +58,6 @@ namespace kedge
     const Lattice<dim> &lattice = passes.front().sampled.surface.patch.grid().lattice();
     if (!kedge::update_multipliers<dim>(passes,
                                         lattice,
-                                        smallest_gap * cell_size,
                                         [](SurfaceSamples<dim> &half, CellMultipliers<dim> &cells) {
                                           half.for_multipliers(cells);
                                         }))
@@ -96,18 +95,16 @@ namespace kedge
       return false;
     move(trial);
     const Lattice<dim> &lattice = sides.front().surface->patch.grid().lattice();
-    if (!update_multipliers<dim>(sides,
-                                 lattice,
-                                 smallest_gap * cell_size,
-                                 [&](Side &side, CellMultipliers<dim> &cells) {
-                                   for (Sample &sample : side.samples)
-                                     cells.add(sample.place + alpha * sample.D,
-                                               sample.area,
-                                               side.law,
-                                               sample.start.multiplier,
-                                               sample.start.slip,
-                                               response(side, sample));
-                                 }))
+    if (!update_multipliers<dim>(sides, lattice, [&](Side &side, CellMultipliers<dim> &cells) {
+          for (Sample &sample : side.samples)
+            cells.add(sample.place + alpha * sample.D,
+                      sample.area,
+                      plane.normal,
+                      side.law,
+                      sample.start.multiplier,
+                      sample.start.slip,
+                      response(side, sample));
+        }))
       return false;
     ++n_updates;
     return true;

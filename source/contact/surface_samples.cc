@@ -214,6 +214,7 @@ namespace kedge
     for (Sample &sample : samples_)
       cells.add(place_at_balance(sample),
                 sample.area,
+                sample.partner.normal,
                 law,
                 sample.multiplier,
                 sample.slip_n,

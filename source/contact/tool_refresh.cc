@@ -61,12 +61,13 @@ namespace kedge
       for (Sample &sample : side->samples)
         cells.add(side->place_at_balance(sample),
                   sample.area,
+                  sample.normal,
                   side->law,
                   sample.multiplier,
                   sample.slip,
                   side->response(sample));
     };
-    if (!kedge::update_multipliers<dim>(sides, lattice, smallest_gap * cell_size, add_side))
+    if (!kedge::update_multipliers<dim>(sides, lattice, add_side))
       return false;
     ++n_updates;
     return true;

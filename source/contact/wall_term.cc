@@ -441,6 +441,7 @@ namespace kedge
     for (std::size_t k = 0; k < sides.size(); ++k)
       {
         auto &values = state[name() + " " + std::to_string(k)];
+        values       = {double(width_of_record)};
         for (const auto &[facet, closed] : sides[k].memory)
           {
             values.insert(values.end(), {double(facet), closed.gap, closed.multiplier});
@@ -455,15 +456,14 @@ namespace kedge
   void
   WallTerm<dim>::restore(const SavedState &state)
   {
-    shear_limit.top             = state.at(name() + " top").front();
-    constexpr std::size_t width = 3 + dim;
+    shear_limit.top = state.at(name() + " top").front();
     for (std::size_t k = 0; k < sides.size(); ++k)
       {
         Side       &side   = sides[k];
         const auto &values = state.at(name() + " " + std::to_string(k));
-        AssertThrow(values.size() % width == 0, dealii::ExcInternalError());
         side.memory.clear();
-        for (auto next = values.begin(); next != values.end(); next += width)
+        for (auto next = first_record(values, width_of_record); next != values.end();
+             next += width_of_record)
           {
             Closed closed{next[1], next[2], {}};
             for (int d = 0; d < dim; ++d)

@@ -60,12 +60,22 @@ namespace kedge
             const FacetHeritage &facets,
             const FacetHeritage &partners = FacetHeritage());
 
+  /**
+   * Where the records begin in what a checkpoint holds: behind their width.
+   *
+   * @throws UserError for those of a version of kedge that has others
+   */
+  std::vector<double>::const_iterator
+  first_record(const std::vector<double> &saved, const std::size_t width);
+
   /** What a checkpoint keeps of it. */
   template <int dim>
   std::vector<double>
   saved(const ContactMemory<dim> &memory);
 
-  /** Takes it back. @param to_gaps turns multipliers into gaps that press as hard */
+  /** Takes it back. @param to_gaps turns multipliers into gaps that press as hard
+   *
+   * @throws UserError as first_record() */
   template <int dim>
   ContactMemory<dim>
   restored(const std::vector<double> &saved, const ContactLaw &law, const bool to_gaps);

@@ -37,9 +37,8 @@ namespace kedge
     , public ShownContact<dim>
   {
   public:
-    /** In parts of a cell: how far partners are looked for, how deep surfaces may overlap, how
-     * small the gaps of bodies at rest must be. */
-    static constexpr double reach = 1., largest_overlap = 0.5, smallest_gap = 1e-3;
+    /** In parts of a cell: how far partners are looked for, how deep surfaces may overlap. */
+    static constexpr double reach = 1., largest_overlap = 0.5;
 
     /** Bodies at rest that do not press yet are held, in the first tangent, where gaps are smaller
      * than this part of a cell. */

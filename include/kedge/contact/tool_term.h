@@ -25,8 +25,7 @@ namespace kedge
   {
   public:
     /** As of ContactTerm: in parts of a cell. */
-    static constexpr double reach = 1., largest_overlap = 0.5, smallest_gap = 1e-3,
-                            nearly_closed = 0.05;
+    static constexpr double reach = 1., largest_overlap = 0.5, nearly_closed = 0.05;
 
     static constexpr unsigned int most_follows = 2, most_passes = 3, most_updates = 40;
 

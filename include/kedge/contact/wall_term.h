@@ -74,15 +74,17 @@ namespace kedge
     , public ShownContact<dim>
   {
   public:
-    /** In parts of a cell: how near samples matter, how deep they may come, how small the gaps of
-     * bodies at rest must be, where bodies that do not press yet are held in the tangent. */
-    static constexpr double reach = 1., largest_overlap = 0.5, smallest_gap = 1e-3,
-                            nearly_closed = 0.05;
+    /** In parts of a cell: how near samples matter, how deep they may come, where bodies that do
+     * not press yet are held in the tangent. */
+    static constexpr double reach = 1., largest_overlap = 0.5, nearly_closed = 0.05;
 
     /** Facets look towards the wall whose normals have at least this part against it. */
     static constexpr double towards = 0.05;
 
     static constexpr unsigned int most_updates = 40;
+
+    /** Numbers that a checkpoint holds of a closed facet. */
+    static constexpr std::size_t width_of_record = 3 + dim;
 
     WallTerm(const ContactParameters             &parameters,
              const WallPlane<dim>                &plane,
