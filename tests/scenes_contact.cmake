@@ -83,6 +83,9 @@ kedge_add_scene_test(scene.hertz_line.ranks prm/hertz_line.prm COMPARE_RANKS 1e-
 kedge_add_scene_test(scene.block_on_slope.ranks prm/block_on_slope.prm RANKS 2)
 kedge_add_scene_test(refusal.nodal_contact_on_ranks prm/prisms_nodes.prm RANKS 2
   EXPECT_EXIT 1 EXPECT_STDERR "Methods at nodes run on one process")
+kedge_add_scene_test(refusal.splines_in_contact_on_ranks prm/hertz_line.prm RANKS 2
+  SET "Bodies/layer/Basis = spline"
+  EXPECT_EXIT 1 EXPECT_STDERR "bodies of splines are in contact on one process")
 # friction of saturated soil acts on what its grains carry
 kedge_add_scene_test(scene.friction_returns prm/friction_returns.prm)
 kedge_add_test(scene.contact.surfaces LABELS scene
@@ -101,6 +104,8 @@ kedge_add_scene_test(scene.patch_contact prm/patch_contact.prm)
 kedge_add_scene_test(scene.patch_contact.shifted prm/patch_contact.prm
   SET "Constants/across = 5/8" "Constants/up = 1/2")
 kedge_add_scene_test(scene.patch_contact.sliver prm/patch_contact.prm SET "Constants/up = 1/8")
+kedge_add_scene_test(scene.patch_contact.spline prm/patch_contact.prm
+  SET "Bodies/lower/Basis = spline" "Bodies/upper/Basis = spline")
 kedge_add_scene_test(scene.patch_contact.block_3d tests/scenes/patch_contact_3d.prm)
 kedge_add_scene_test(scene.patch_contact.sliver_3d tests/scenes/patch_contact_3d.prm SET "Constants/up = 1/8")
 # soft bodies: h = 1/4 is as far off finite elements as 0.49 %

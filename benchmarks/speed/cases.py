@@ -50,13 +50,15 @@ def fem_case(problem, variant, degree, label, level, **parameters):
 
 
 def column_cases():
-    """One cell wide: soft in 40 and stiff in 20 load steps; GIMP, linear, finite elements."""
+    """One cell wide: soft in 40 and stiff in 20 load steps; all bases, finite elements."""
     for variant, modulus, steps in (("E=1e4", 1e4, 40), ("E=1e6", 1e6, 20)):
         for cells in (16, 32, 64, 128, 256, 512, 1024, 2048, 4096):
             level = level_of(cells, 16 if modulus < 1e5 else 0, 1024)
             common = {"n": cells, "E": modulus, "steps": steps}
             yield kedge_case("column", variant, "GIMP", f"{cells} cells", "column_quasi_static",
                              level, **common)
+            yield kedge_case("column", variant, "spline", f"{cells} cells", "column_quasi_static",
+                             max(level, MEDIUM), Bodies__column__Basis="spline", **common)
             if cells <= 1024 and (modulus < 1e5 or cells <= 256):
                 yield kedge_case("column", variant, "linear", f"{cells} cells",
                                  "column_quasi_static", max(level, MEDIUM),
@@ -82,6 +84,11 @@ def cantilever_static_cases():
                                  f"GIMP {points}x{points}, {steps} steps", f"h={size:g}",
                                  "cantilever_static", level,
                                  h=size, points=points, steps=steps)
+    for size in (1, 0.5, 0.25, 0.125):
+        for points, steps in ((2, 50), (3, 50), (3, 25)):
+            yield kedge_case("cantilever_static", "", f"spline {points}x{points}, {steps} steps",
+                             f"h={size:g}", "cantilever_static", MEDIUM if size > 0.2 else FULL,
+                             h=size, points=points, steps=steps, Bodies__beam__Basis="spline")
     for size in (0.5, 0.25, 0.125):
         yield kedge_case("cantilever_static", "", "linear 3x3, 50 steps", f"h={size:g}",
                          "cantilever_static", FULL, h=size, points=3, steps=50,
@@ -97,6 +104,13 @@ def cantilever_dynamic_cases():
     """Cells of h with points per direction, steps as factors of the CFL step."""
     for analysis in ("a", "b"):
         problem, scene = f"cantilever_dynamic_{analysis}", f"cantilever_dynamic_{analysis}"
+        for size, points, factor in ((1, 4, 7.5), (0.5, 2, 15), (0.5, 4, 15), (0.25, 2, 30),
+                                     (0.25, 4, 30), (0.25, 4, 15)):
+            yield kedge_case(problem, "", f"spline {points}x{points}",
+                             f"h={size:g}, {factor:g} CFL", scene,
+                             MEDIUM if (size, factor) != (0.25, 15) else FULL,
+                             h=size, points=points, Time__Step=f"{factor:g} initial cfl",
+                             Bodies__beam__Basis="spline")
         for size, points, factor in ((0.5, 4, 15), (0.5, 12, 15), (0.25, 4, 30), (0.25, 4, 15),
                                      (0.125, 4, 60), (0.125, 4, 30)):
             level = MEDIUM if points < 12 and (size > 0.4 or (size, factor) == (0.25, 30)) else FULL
@@ -122,7 +136,7 @@ def spinning_body_cases():
     for size in (1., 0.5, 0.25):
         for step in (0.1, 0.05, 0.025, 0.0125):
             level = SHORT if (size, step) == (1., 0.05) else MEDIUM if size > 0.4 else FULL
-            for basis in ("GIMP", "linear"):
+            for basis in ("GIMP", "linear", "spline"):
                 yield kedge_case("spinning_body", "", f"{basis} h={size:g}", f"dt={step:g}",
                                  "spinning_body", level if basis == "GIMP" else max(level, MEDIUM),
                                  h=size, dt=step, steps=round(10 / step),
@@ -138,7 +152,7 @@ def discs_cases():
     for variant, size, points, factor in (
             ("elastic", 2, 35, 5), ("elastic", 2, 8, 5), ("elastic", 1, 8, 5),
             ("elastic", 0.5, 4, 5), ("elastic", 0.5, 4, 10), ("elastic", 0.5, 4, 2.5)):
-        for basis in ("linear", "GIMP"):
+        for basis in ("linear", "GIMP", "spline"):
             level = SHORT if (size, points, basis) == (2, 8, "linear") else \
                 FULL if points == 35 else MEDIUM
             yield kedge_case("discs", variant, basis, f"h={size:g}, {points}x{points}, "
@@ -163,6 +177,14 @@ def collapse_cases():
                 settings["Materials__clay__Volume_change"] = "cell mean"
             method = f"GIMP {points}x{points}{' cell mean' if mean else ''}, {steps} steps"
             yield kedge_case("collapse", "", method, f"h={size:g}", "collapse", level, **settings)
+    for size in (1, 0.5, 0.25):
+        for points, mean in ((2, False), (4, False), (4, True)):
+            settings = {"Materials__clay__Volume_change": "cell mean"} if mean else {}
+            yield kedge_case("collapse", "", f"spline {points}x{points}"
+                             f"{' cell mean' if mean else ''}, 40 steps", f"h={size:g}",
+                             "collapse", MEDIUM if size > 0.4 else FULL, h=size, points=points,
+                             steps=40, Time__Scheme="quasi-static", Bodies__block__Basis="spline",
+                             **settings)
     for degree, sizes in ((1, (1, 0.5, 0.25)), (2, (2, 1, 0.5))):
         for size in sizes:
             yield fem_case("collapse", "", degree, f"h={size:g}, 40 steps",
@@ -175,6 +197,8 @@ def taylor_bar_cases():
     for points, cells, step, level in ((8, 25, 0.75e-6, MEDIUM), (8, 50, 0.375e-6, FULL)):
         yield kedge_case("taylor_bar", "", "GIMP", f"{cells} cells, {step * 1e6:g} us",
                          "taylor_bar", level, m=points, n=cells, step=step)
+    yield kedge_case("taylor_bar", "", "spline", "25 cells, 0.75 us", "taylor_bar", FULL,
+                     m=8, n=25, step=0.75e-6, Bodies__bar__Basis="spline")
     yield kedge_case("taylor_bar", "", "linear", "25 cells, 0.75 us", "taylor_bar", FULL,
                      m=8, n=25, step=0.75e-6, Bodies__bar__Basis="linear")
 

@@ -2,7 +2,7 @@
 from dataclasses import dataclass, field
 
 SHIFTS = [k / 8 for k in range(8)]
-BASES = ["linear", "gimp"]
+BASES = ["linear", "gimp", "spline"]
 
 
 @dataclass

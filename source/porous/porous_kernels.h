@@ -27,17 +27,15 @@ namespace kedge
     inline void
     expand_constants(const Stencil<dim> &stencil, double (&constant)[stencil_size<dim>(pattern)])
     {
-      double factor[3][3] = {{1., 0., 0.}, {1., 0., 0.}, {1., 0., 0.}};
+      double factor[3][most_stencil_nodes + 1] = {{}, {}, {}};
+      if constexpr (dim == 2)
+        factor[2][0] = 1.;
       for (int d = 0; d < dim; ++d)
         {
-          factor[d][0] = factor[d][1] = 0.5;
-          if (stencil_width(pattern, d) == 3)
-            {
-              // the slopes of the outer nodes are the shares of the two cells
-              const double *slope = stencil.slope[d];
-              factor[d][2]        = 0.5 * slope[2] / (slope[2] - slope[0]);
-              factor[d][0]        = 0.5 - factor[d][2];
-            }
+          double *of_lower = factor[d] + stencil.lower_cell[d];
+          of_lower[0]      = 0.5 * stencil.lower_part[d];
+          of_lower[1]      = 0.5;
+          of_lower[2]      = 0.5 - of_lower[0];
         }
       int A = 0;
       for (int k = 0; k < (dim == 3 ? stencil_width(pattern, 2) : 1); ++k)

@@ -31,6 +31,15 @@ namespace kedge
         result[d] = parse_whole_number(parts[parts.size() == 1 ? 0 : d], section.constants());
       return result;
     }
+
+    BasisKind
+    basis_of(const std::string &name)
+    {
+      return name == "gimp"        ? BasisKind::gimp
+             : name == "spline"    ? BasisKind::spline
+             : name == "quadratic" ? BasisKind::quadratic
+                                   : BasisKind::linear;
+    }
   } // namespace
 
 
@@ -51,13 +60,10 @@ namespace kedge
         body.geometry = read_geometry<dim>(section, grid, folder);
         if (section.text("Pieces") == "apart")
           body.pieces = read_pieces<dim>(section, grid, folder);
-        body.material           = find_name(reader, section, "Material", "Materials");
-        body.points_per_cell    = points_per_cell_of<dim>(section);
-        body.clip               = section.text("Cut cells") == "clipped";
-        const std::string basis = section.text("Basis");
-        body.basis              = basis == "gimp"        ? BasisKind::gimp
-                                  : basis == "quadratic" ? BasisKind::quadratic
-                                                         : BasisKind::linear;
+        body.material        = find_name(reader, section, "Material", "Materials");
+        body.points_per_cell = points_per_cell_of<dim>(section);
+        body.clip            = section.text("Cut cells") == "clipped";
+        body.basis           = basis_of(section.text("Basis"));
         if (!bodies.empty() &&
             (bodies[0].basis == BasisKind::quadratic) != (body.basis == BasisKind::quadratic))
           throw section.error("Basis", "If a body is quadratic, all of them must be.");
@@ -113,9 +119,9 @@ namespace kedge
         "what lies in the body. whole: of the whole sub-cell if its centre lies in the body."},
        {"Basis",
         "gimp",
-        allow.one_of({"linear", "gimp", "quadratic"}),
-        "linear: points without extent. gimp: points with a domain, smoother. quadratic: "
-        "points without extent in quadratic elements (all bodies)."},
+        allow.one_of({"linear", "gimp", "spline", "quadratic"}),
+        "linear: points without extent. gimp: with a domain, smoother. spline: B-splines averaged "
+        "over it, smoothest. quadratic: without extent, quadratic elements (all bodies)."},
        {"Initial velocity",
         dim == 2 ? "0; 0" : "0; 0; 0",
         allow.expressions(places, words),

@@ -55,9 +55,13 @@ namespace kedge
     {
       if (scene.time.scheme != SchemeKind::quasi_static &&
           scene.time.scheme != SchemeKind::clc_quasi_static)
-        return;
+        {
+          if (scene.transfer.velocity_mapping != VelocityUpdate::flip)
+            idle.add({"Mapping"}, {"Filter time"}, "but with Mapping/Velocity = flip.");
+          return;
+        }
       const std::string why = "without inertia (Time/Scheme).";
-      idle.add({"Mapping"}, {"Velocity", "Lumping", "Audit"}, why);
+      idle.add({"Mapping"}, {"Velocity", "Filter time", "Lumping", "Audit"}, why);
       for (const auto &body : scene.bodies)
         idle.add({"Bodies", body.name}, {"Initial velocity"}, why);
     }

@@ -253,7 +253,12 @@ namespace kedge
         "pointwise",
         allow.one_of({"pointwise", "cell mean"}),
         "Whose gives the pressure: a point's own, or the mean in a cell: does not lock. hencky, "
-        "von_mises and tresca."}}};
+        "von_mises and tresca."},
+       {"Viscosity",
+        "0",
+        allow.number(NumberRange::not_negative()),
+        "eta of a dashpot beside the material, which damps: its stress is 2 eta times the rate of "
+        "strain [Pa s]; of dry bodies. Its work is booked as viscous_dissipation."}}};
     for (const auto &entries : {elasticity(allow),
                                 plasticity(allow),
                                 undrained_strength(allow),

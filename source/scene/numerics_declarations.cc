@@ -58,6 +58,11 @@ namespace kedge
           allow.one_of({"flip", "pic"}),
           "flip: points take the change of the grid's velocity. pic: the velocity itself, "
           "which damps."},
+         {"Filter time",
+          "",
+          allow.number(NumberRange::positive()).or_empty(),
+          "flip: in which velocities that only the points have, and not the grid, fall to 1/e [s]; "
+          "their energy is booked as mapping_dissipation; empty: they stay."},
          {"Lumping",
           "0",
           allow.number(fraction),
@@ -148,7 +153,7 @@ namespace kedge
         "equal",
         allow.one_of({"equal", "coarse"}),
         "equal: that of the displacement, with Stabilisation. coarse: bilinear over the grid's "
-        "cells, the displacement's nodes standing half as far apart (linear, gimp: also in the "
+        "cells, the displacement's nodes standing half as far apart (linear, gimp, spline: also in the "
         "middles of their edges) or on quadratic elements; stable by itself."},
        {"Stabilisation",
         "",

@@ -287,8 +287,9 @@ namespace kedge
       {
         const SectionReader section(reader, {"Materials", name});
         MaterialParameters  material;
-        material.name    = section.name();
-        material.density = section.number("Density");
+        material.name      = section.name();
+        material.density   = section.number("Density");
+        material.viscosity = section.number("Viscosity");
         if (section.text("Volume change") == "cell mean")
           material.volume_change = VolumeChange::cell_mean;
         if (section.text("Model") == "improved_hencky")

@@ -101,6 +101,8 @@ namespace kedge
     TransferParameters  transfer;
     transfer.velocity_mapping =
       section.text("Velocity") == "pic" ? VelocityUpdate::pic : VelocityUpdate::flip;
+    if (!section.is_empty("Filter time"))
+      transfer.filter_time = section.number("Filter time");
     transfer.lumping = section.number("Lumping");
     transfer.audit   = section.truth("Audit");
     return transfer;

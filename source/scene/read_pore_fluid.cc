@@ -55,6 +55,10 @@ namespace kedge
                      "Body '" + body.name + "' is saturated, it must be given.");
         }
       for (const auto &material : scene.materials)
+        if (material.viscosity > 0.)
+          throw SectionReader(reader, {"Materials", material.name})
+            .error("Viscosity", "In saturated bodies (Pore fluid) it must be 0: the fluid damps.");
+      for (const auto &material : scene.materials)
         if (material.volume_change != VolumeChange::pointwise)
           throw SectionReader(reader, {"Materials", material.name})
             .error("Volume change", "In saturated bodies (Pore fluid) it must be pointwise.");
@@ -83,7 +87,7 @@ namespace kedge
         }
       const bool smooth =
         std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyParameters<dim> &body) {
-          return body.basis == BasisKind::gimp;
+          return body.basis == BasisKind::gimp || body.basis == BasisKind::spline;
         });
       pores.velocity_filter     = section.number("Velocity filter");
       pores.stabilisation_theta = !section.is_empty("Stabilisation theta")
@@ -185,8 +189,8 @@ namespace kedge
         scene.time.scheme == SchemeKind::clc_midpoint)
       throw SectionReader(reader, {"Time"})
         .error("Scheme",
-               "clc-midpoint of saturated bodies goes with linear and gimp bases, not with the "
-               "quadratic one.");
+               "clc-midpoint of saturated bodies goes with linear, gimp and spline bases, not with "
+               "the quadratic one.");
     if (!result.coarse_pressure && scene.bodies[0].basis == BasisKind::quadratic)
       throw section.error("Pressure space",
                           "With the quadratic basis of the bodies it must be coarse.");

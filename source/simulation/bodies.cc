@@ -87,13 +87,13 @@ namespace kedge
   int
   Bodies::stencil_radius() const
   {
-    return std::all_of(bases.begin(),
-                       bases.end(),
-                       [](const BasisKind basis) {
-                         return basis == BasisKind::linear;
-                       })
-             ? 1
-             : 2;
+    int radius = 1;
+    for (const BasisKind basis : bases)
+      radius = std::max(radius,
+                        basis == BasisKind::linear   ? 1
+                        : basis == BasisKind::spline ? most_stencil_nodes - 1
+                                                     : 2);
+    return radius;
   }
 
 
@@ -121,6 +121,7 @@ namespace kedge
         result.materials.push_back(make_material(material));
         result.columns.push_back(memory_indices(result.materials.back()));
         result.young_moduli.push_back(material.young_modulus);
+        result.viscosities.push_back(material.viscosity);
         result.densities.push_back(material.density);
         result.bases.push_back(body.basis);
         result.shared_volume.push_back(material.volume_change == VolumeChange::cell_mean);

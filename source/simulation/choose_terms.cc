@@ -48,7 +48,11 @@ namespace kedge
       add_term(std::make_unique<MotionTerm<dim>>(field, patch, here.transfer.get(), open_sides));
     add_term(std::make_unique<HistoryTerm<dim>>(field, patch, bodies.materials, bodies.columns));
     if (!scene.pore_fluid)
-      add_term(std::make_unique<SolidTerm<dim>>(field, patch, bodies.materials, scheme));
+      add_term(std::make_unique<SolidTerm<dim>>(field,
+                                                patch,
+                                                bodies.materials,
+                                                scheme,
+                                                bodies.viscosities));
     LoadTerm<dim> &loads   = choose_loads(field, motion, program);
     const bool     mixture = scene.pore_fluid && scheme.carries_fluid_velocity();
     if (mixture)
@@ -284,7 +288,13 @@ namespace kedge
                           " cells gives body '" + bodies.names[b] +
                           "' more surface points than can be followed. Allowed: from " +
                           std::to_string(smallest_spacing) + " of a cell on.");
-        const bool                contact = spacing < none;
+        const bool contact = spacing < none;
+        if (contact && bodies.bases[b] == BasisKind::spline &&
+            dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+          throw UserError(
+            "Bodies/" + bodies.names[b] +
+            "/Basis = spline: bodies of splines are in contact on one process, not on "
+            "several. Start kedge without mpirun, or take gimp.");
         std::vector<unsigned int> sides; // that something is prescribed on
         const auto                add = [&](const auto &prescribed) {
           for (const auto &surface : prescribed)

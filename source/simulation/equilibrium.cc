@@ -35,6 +35,8 @@ namespace kedge
           line.motion.kind = ConditionKind::fixed;
       stage.open_sides.clear(); // nothing may be lost before the books are opened
       stage.time.scheme       = SchemeKind::quasi_static;
+      for (auto &material : stage.materials)
+        material.viscosity = 0.; // its stress is none of rest
       stage.equilibrium.steps = 0;
       stage.load_control.reset(); // its loads are those of Time/Start
       return stage;

@@ -52,7 +52,7 @@ namespace kedge
     const bool ghosts = scene.stabilisation.method == StabilisationKind::ghost;
     const bool ties   = scene.stabilisation.method == StabilisationKind::aggregation;
     const int  stencil_radius =
-      ghosts ? GhostTerm<dim>::radius : bodies.stencil_radius(); // of the widest body
+      std::max(bodies.stencil_radius(), ghosts ? GhostTerm<dim>::radius : 0); // of the widest body
 
     PatchParameters parameters;
     parameters.body_names       = bodies.names;

@@ -161,9 +161,14 @@ namespace kedge
     if (of_field != field)
       return;
     is_mapped = lumped_mass_ratio(patch, mapped) < badly_conditioned_mass;
-    if (is_mapped)
-      for (std::size_t k = 0; k < mapped.values().size(); ++k)
-        mapped.values()[k] += mass.values()[k];
+    if (!is_mapped)
+      return;
+    for (unsigned int s = 0; s < mass.n_slots(); ++s)
+      {
+        const unsigned int slot = mapped.slot(mass.offset(s)); // in the matrix, which may be wider
+        for (unsigned int i = 0; i < patch.nodes.n_local(); ++i)
+          mapped.row(i, 0)[slot] += mass.row(i, 0)[s];
+      }
   }
 
 

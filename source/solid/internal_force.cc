@@ -29,7 +29,8 @@ namespace kedge
   PointStatus
   InternalForce<dim>::add_force(const Patch<dim>          &patch,
                                 const std::vector<double> &displacement,
-                                std::vector<double>       &force) const
+                                std::vector<double>       &force,
+                                const std::vector<double> &viscous_moduli) const
   {
     GroupDilatation dilatation;
     PointStatus     status = evaluate_groups(patch, displacement, dilatation);
@@ -37,13 +38,14 @@ namespace kedge
       return status;
     for (const auto &batch : patch.points.batches)
       {
-        const internal::BatchContext<dim> context{patch,
-                                                  displacement,
-                                                  batch,
-                                                  fraction,
-                                                  patch.points.is_grouped(batch) ? &dilatation
-                                                                                 : nullptr};
-        const internal::BatchLaw<dim>     law(context, materials[batch.body], stress_rule, false);
+        const internal::BatchContext<dim> context{
+          patch,
+          displacement,
+          batch,
+          fraction,
+          patch.points.is_grouped(batch) ? &dilatation : nullptr,
+          viscous_moduli.empty() ? 0. : viscous_moduli[batch.body]};
+        const internal::BatchLaw<dim> law(context, materials[batch.body], stress_rule, false);
         dispatch_pattern<dim>(batch.pattern,
                               internal::ForceKernel<dim>{context, law, force, status});
         if (!status.ok())
@@ -58,19 +60,21 @@ namespace kedge
   void
   InternalForce<dim>::add_stiffness(const Patch<dim>          &patch,
                                     const std::vector<double> &displacement,
-                                    NodeMatrix<dim>           &stiffness) const
+                                    NodeMatrix<dim>           &stiffness,
+                                    const std::vector<double> &viscous_moduli) const
   {
     GroupDilatation dilatation;
     evaluate_groups(patch, displacement, dilatation);
     for (const auto &batch : patch.points.batches)
       {
-        const internal::BatchContext<dim> context{patch,
-                                                  displacement,
-                                                  batch,
-                                                  fraction,
-                                                  patch.points.is_grouped(batch) ? &dilatation
-                                                                                 : nullptr};
-        const internal::BatchLaw<dim>     law(context, materials[batch.body], stress_rule, true);
+        const internal::BatchContext<dim> context{
+          patch,
+          displacement,
+          batch,
+          fraction,
+          patch.points.is_grouped(batch) ? &dilatation : nullptr,
+          viscous_moduli.empty() ? 0. : viscous_moduli[batch.body]};
+        const internal::BatchLaw<dim> law(context, materials[batch.body], stress_rule, true);
         dispatch_pattern<dim>(batch.pattern,
                               internal::StiffnessKernel<dim>{context, law, stiffness});
       }

@@ -25,7 +25,7 @@ namespace kedge
         const StepPoints<dim>      &points = context.patch.points;
         LanesOfPoints<dim, pattern> lanes(context);
         ForceStress<dim, Pack>      stress;
-        double                      sum[dim][n] = {};
+        alignas(64) double          sum[dim][n] = {};
         for (unsigned int begin = context.batch.begin; begin < context.batch.end;)
           {
             const PackOfSlots slots(begin, context.batch.end);

@@ -189,7 +189,6 @@ namespace kedge
   void
   BodySurface<dim>::find_roots()
   {
-    const auto               &lattice = patch.grid().lattice();
     const auto               &window  = patch.window();
     const std::vector<double> filling = fillings();
     if (open_sides.any())
@@ -200,9 +199,11 @@ namespace kedge
     roots.clear();
     root_of_vertex.assign(n_vertices(), elsewhere);
     is_own.assign(n_vertices(), false);
-    weights.resize(n_vertices());
+    weights.clear();
+    first_weight.assign(1, 0);
     for (unsigned int v = 0; v < n_vertices(); ++v)
       {
+        first_weight.push_back(static_cast<unsigned int>(weights.size()));
         if (!stays[v])
           continue;
         const dealii::Point<dim> &x    = mesh().vertices[v];
@@ -218,7 +219,10 @@ namespace kedge
             AssertThrow(roots.back().is_known, dealii::ExcInternalError());
           }
         root_of_vertex[v] = entry->second;
-        weights[v]        = roots[entry->second].functions(lattice, x);
+        for_functions(roots[entry->second], x, [&](const unsigned int node, const double N) {
+          weights.push_back({node, N});
+        });
+        first_weight.back() = static_cast<unsigned int>(weights.size());
       }
     has_points.resize(filling.size());
     for (std::size_t cell = 0; cell < filling.size(); ++cell)
@@ -228,28 +232,11 @@ namespace kedge
 
 
   template <int dim>
-  std::array<double, BodySurface<dim>::n_corners>
-  BodySurface<dim>::Root::functions(const Lattice<dim> &lattice, const dealii::Point<dim> &x) const
-  {
-    std::array<double, n_corners> result;
-    result.fill(1.);
-    for (int d = 0; d < dim; ++d)
-      {
-        const double s = lattice.scaled(x[d], d) - cell[d];
-        for (unsigned int c = 0; c < n_corners; ++c)
-          result[c] *= (c >> d) & 1u ? s : 1. - s;
-      }
-    return result;
-  }
-
-
-
-  template <int dim>
   typename BodySurface<dim>::Root
   BodySurface<dim>::root_of(const LatticeIndex<dim> &cell) const
   {
     const auto &grid   = patch.grid();
-    Root        result = {cell, {}, false, true};
+    Root        result = {cell, false, true};
     result.is_own =
       grid.cell_owner(cell) == dealii::Utilities::MPI::this_mpi_process(grid.communicator());
     for (unsigned int c = 0; c < n_corners; ++c)
@@ -259,7 +246,6 @@ namespace kedge
           node[d] += static_cast<int>((c >> d) & 1u);
         const int local = patch.nodes.local(grid.window().node_number(node));
         result.is_known = result.is_known && local >= 0;
-        result.nodes[c] = static_cast<unsigned int>(std::max(local, 0));
       }
     return result;
   }

@@ -9,7 +9,7 @@ namespace kedge
   {
     /** The linear functions of two cells at @p t, in cells from the first of their nodes. */
     void
-    hat_functions(const double t, double (&value)[3])
+    hat_functions(const double t, double (&value)[most_stencil_nodes])
     {
       const bool   upper = t > 1.;
       const double xi    = upper ? t - 1. : t; // beyond the nodes they are continued
@@ -20,7 +20,7 @@ namespace kedge
 
     /** Those of the quadratic element, see quadratic_stencil(). */
     void
-    quadratic_functions(const double xi, double (&value)[3])
+    quadratic_functions(const double xi, double (&value)[most_stencil_nodes])
     {
       value[0] = (1. - xi) * (1. - 2. * xi);
       value[1] = 4. * xi * (1. - xi);
@@ -30,24 +30,70 @@ namespace kedge
     /** Whether all nodes of a stencil are in use. */
     template <int dim>
     bool
-    has_nodes(const Patch<dim> &patch, const LatticeIndex<dim> &first, const int width)
+    has_nodes(const Patch<dim> &patch, const LatticeIndex<dim> &first, const unsigned int pattern)
     {
       const auto       &window = patch.window();
       LatticeIndex<dim> node   = first;
       int               n      = 1;
       for (int d = 0; d < dim; ++d)
-        if (first[d] < window.low[d] || first[d] + width > window.low[d] + window.n_cells[d] + 1)
-          return false;
-        else
+        {
+          const int width = stencil_width(pattern, d);
+          if (first[d] < window.low[d] || first[d] + width > window.low[d] + window.n_cells[d] + 1)
+            return false;
           n *= width;
+        }
       for (int A = 0; A < n; ++A)
         {
-          for (int d = 0, a = A; d < dim; ++d, a /= width)
-            node[d] = first[d] + a % width;
+          for (int d = 0, a = A; d < dim; a /= stencil_width(pattern, d), ++d)
+            node[d] = first[d] + a % stencil_width(pattern, d);
           if (patch.nodes.local(window.node_number(node)) < 0)
             return false;
         }
       return true;
+    }
+
+    /**
+     * The splines of one of the halves of a cell, per direction: on the side of @p x if their nodes
+     * are in use, else of the half that is next. Beyond the cell they go on straight: their
+     * parabolas would give nodes on the other side weights far above 1.
+     *
+     * @return false if no half has all its nodes
+     */
+    template <int dim>
+    bool
+    splines_of_cell(const Patch<dim>         &patch,
+                    const LatticeIndex<dim>  &cell,
+                    const dealii::Point<dim> &x,
+                    Stencil<dim>             &result)
+    {
+      const auto &lattice = patch.grid().lattice();
+      for (unsigned int flips = 0; flips < (1u << dim); ++flips)
+        {
+          LatticeIndex<dim> first;
+          result.pattern = 0;
+          for (int d = 0; d < dim; ++d)
+            {
+              const bool is_flipped = ((flips >> d) & 1u) != 0;
+              const bool is_upper   = lattice.scaled(x[d], d) - cell[d] >= 0.5;
+              const int  line       = cell[d] + (is_upper != is_flipped ? 1 : 0);
+              const int  last       = std::min(line + 1, lattice.n_cells[d]);
+              first[d]              = std::max(line - 1, 0);
+              result.pattern |= pattern_part(last - first[d] + 1, d);
+            }
+          if (!has_nodes<dim>(patch, first, result.pattern))
+            continue;
+          result.first_node = patch.window().node_number(first);
+          for (int d = 0; d < dim; ++d)
+            {
+              const double s      = lattice.scaled(x[d], d);
+              const double inside = std::clamp(s, double(cell[d]), cell[d] + 1.);
+              set_splines_at(lattice, inside, d, first[d], result);
+              for (int i = 0; i < most_stencil_nodes; ++i)
+                result.value[d][i] += (s - inside) * lattice.h[d] * result.slope[d][i];
+            }
+          return true;
+        }
+      return false;
     }
   } // namespace
 
@@ -61,10 +107,11 @@ namespace kedge
                     const double (&offset)[dim],
                     const double (&area)[dim])
   {
-    Stencil<dim> result = patch.points.stencil[slot];
-    const auto   first =
-      patch.grid().lattice().node_position(patch.window().node_index(result.first_node));
-    const int normal = static_cast<int>(std::max_element(area,
+    Stencil<dim> result     = patch.points.stencil[slot];
+    const auto  &lattice    = patch.grid().lattice();
+    const auto   first_node = patch.window().node_index(result.first_node);
+    const auto   first      = lattice.node_position(first_node);
+    const int    normal     = static_cast<int>(std::max_element(area,
                                                          area + dim,
                                                          [](const double a, const double b) {
                                                            return std::abs(a) < std::abs(b);
@@ -73,9 +120,15 @@ namespace kedge
     for (int d = 0; d < dim; ++d)
       {
         const double x = patch.points.location[slot][d] + offset[d] - first[d];
-        const double t = x / patch.grid().lattice().h[d];
+        const double t = x / lattice.h[d];
         if (stencil_width(result.pattern, d) == 3 && basis == BasisKind::quadratic)
           quadratic_functions(0.5 * t, result.value[d]);
+        else if (basis == BasisKind::spline && d == normal)
+          {
+            Stencil<dim> at_face = result;
+            set_splines_at(lattice, t + first_node[d], d, first_node[d], at_face);
+            std::copy_n(at_face.value[d], most_stencil_nodes, result.value[d]);
+          }
         else if (stencil_width(result.pattern, d) == 3 && d == normal)
           hat_functions(t, result.value[d]);
         else
@@ -95,29 +148,37 @@ namespace kedge
                     const dealii::Point<dim> &x)
   {
     const auto       &lattice = patch.grid().lattice();
-    const bool        linear  = basis != BasisKind::quadratic;
     LatticeIndex<dim> first   = cell;
-    for (int d = 0; d < dim && !linear; ++d)
-      first[d] -= cell[d] % 2;
-    if (!has_nodes<dim>(patch, first, linear ? 2 : 3))
+    Stencil<dim>      result{};
+    result.pattern = basis == BasisKind::quadratic ? uniform_pattern<dim>(3) : 0;
+    if (basis == BasisKind::spline)
+      {
+        if (splines_of_cell<dim>(patch, cell, x, result))
+          return result;
+      }
+    else if (basis == BasisKind::quadratic)
+      for (int d = 0; d < dim; ++d)
+        first[d] -= cell[d] % 2;
+    if (!has_nodes<dim>(patch, first, result.pattern))
       return std::nullopt;
-    Stencil<dim> result;
     result.first_node = patch.window().node_number(first);
-    result.pattern    = linear ? 0 : n_stencil_patterns<dim> - 1;
     for (int d = 0; d < dim; ++d)
       {
-        const double t = lattice.scaled(x[d], d) - first[d], xi = 0.5 * t, h = lattice.h[d];
-        if (linear)
+        const double s = lattice.scaled(x[d], d), t = s - first[d], h = lattice.h[d];
+        const double xi = 0.5 * t; // of the quadratic element, of length 2 h
+        if (basis == BasisKind::quadratic)
           {
-            const double value[3] = {1. - t, t, 0.}, slope[3] = {-1. / h, 1. / h, 0.};
-            std::copy_n(value, 3, result.value[d]);
-            std::copy_n(slope, 3, result.slope[d]);
-            continue;
+            quadratic_functions(xi, result.value[d]);
+            const double slope[3] = {4. * xi - 3., 4. - 8. * xi, 4. * xi - 1.}; // by xi
+            for (int i = 0; i < 3; ++i)
+              result.slope[d][i] = slope[i] / (2. * h);
           }
-        quadratic_functions(xi, result.value[d]);
-        const double slope[3] = {4. * xi - 3., 4. - 8. * xi, 4. * xi - 1.}; // by xi, of length 2 h
-        for (int i = 0; i < 3; ++i)
-          result.slope[d][i] = slope[i] / (2. * h);
+        else
+          {
+            const double value[2] = {1. - t, t}, slope[2] = {-1. / h, 1. / h};
+            std::copy_n(value, 2, result.value[d]);
+            std::copy_n(slope, 2, result.slope[d]);
+          }
       }
     return result;
   }

@@ -58,18 +58,31 @@ namespace kedge
                                         nearest_vertex<dim>(surface.mesh(), facet, inside));
       if (!root.is_known)
         return;
-      std::array<double, BodySurface<dim>::n_corners> means{};
       for (const auto &gauss : facet_quadrature<dim>())
-        {
-          const auto N = root.functions(lattice, place_on_facet<dim>(corners, gauss.place));
-          for (unsigned int c = 0; c < means.size(); ++c)
-            means[c] += part * gauss.weight * N[c];
-        }
-      for (unsigned int c = 0; c < means.size(); ++c)
-        add(root.nodes[c], means[c], root.is_own, sums);
+        surface.for_functions(root,
+                              place_on_facet<dim>(corners, gauss.place),
+                              [&](const unsigned int node, const double N) {
+                                add(node, part * gauss.weight * N, root.is_own, sums);
+                              });
     }
 
-    /** Whether no line of the grid cuts a facet. */
+    /** The lattice between whose lines a body's functions are polynomials: splines have kinks in
+     * the middle of the grid's cells. */
+    template <int dim>
+    Lattice<dim>
+    lattice_of_polynomials(const BodySurface<dim> &surface)
+    {
+      Lattice<dim> result = surface.patch.grid().lattice();
+      if (surface.patch.basis_of(surface.body) == BasisKind::spline)
+        for (int d = 0; d < dim; ++d)
+          {
+            result.h[d] *= 0.5;
+            result.n_cells[d] *= 2;
+          }
+      return result;
+    }
+
+    /** Whether no line of a lattice cuts a facet. */
     template <int dim>
     bool
     lies_in_one_cell(const Lattice<dim>                        &lattice,
@@ -92,10 +105,10 @@ namespace kedge
                  const dealii::Tensor<1, dim>              &inward,
                  const unsigned int                         facet)
   {
-    const Lattice<dim> &lattice = surface.patch.grid().lattice();
-    constexpr double    depth   = 1e-6;          // of a cell: which one the body lies in
-    const double        length  = inward.norm(); // 0 of a facet without area
-    const auto          to_inside =
+    const Lattice<dim> lattice = lattice_of_polynomials(surface);
+    constexpr double   depth   = 1e-6;          // of a cell: which one the body lies in
+    const double       length  = inward.norm(); // 0 of a facet without area
+    const auto         to_inside =
       (length > 0. ? depth * lattice.smallest_cell_size() / length : 0.) * inward;
     const auto add_to = [&](const std::array<dealii::Point<dim>, dim> &of_piece,
                             const double                               part,

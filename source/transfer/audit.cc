@@ -202,7 +202,7 @@ namespace kedge
                  const std::vector<dealii::Tensor<1, dim>> &new_velocities,
                  const NodeMatrix<dim>                     &mass,
                  const double                               lumping,
-                 const VelocityUpdate                       update,
+                 const double                               kept,
                  const std::vector<double>                 &v_n,
                  const std::vector<double>                 &v_np1,
                  const std::vector<double>                 &u)
@@ -227,9 +227,8 @@ namespace kedge
     std::vector<double> lumped_mass(patch.nodes.n_local(), 0.);
     add_scalars_to_nodes(patch, patch.points.mass, 1, lumped_mass);
     std::vector<double> change = v_np1;
-    if (update == VelocityUpdate::flip)
-      for (std::size_t i = 0; i < change.size(); ++i)
-        change[i] -= v_n[i];
+    for (std::size_t i = 0; i < change.size(); ++i)
+      change[i] -= kept * v_n[i];
     MotionTotals<dim> at_n            = lumping_totals(patch, lumped_mass, x_n, v_n);
     MotionTotals<dim> at_np1          = lumping_totals(patch, lumped_mass, x_np1, change);
     audit.expected_p2g.kinetic_energy = filtered_energy(patch, v_n);
@@ -245,9 +244,8 @@ namespace kedge
 
     audit.expected_p2g.kinetic_energy += lumping * at_n.kinetic_energy;
     audit.expected_step.angular_momentum = -lumping * at_np1.angular_momentum;
-    audit.expected_step.kinetic_energy   = -lumping * at_np1.kinetic_energy;
-    if (update == VelocityUpdate::pic)
-      audit.expected_step.kinetic_energy -= audit.expected_p2g.kinetic_energy;
+    audit.expected_step.kinetic_energy =
+      -lumping * at_np1.kinetic_energy - (1. - kept * kept) * audit.expected_p2g.kinetic_energy;
     return audit;
   }
 
@@ -258,7 +256,7 @@ namespace kedge
                                              const std::vector<dealii::Tensor<1, dim>> &,       \
                                              const NodeMatrix<dim> &,                           \
                                              const double,                                      \
-                                             const VelocityUpdate,                              \
+                                             const double,                                      \
                                              const std::vector<double> &,                       \
                                              const std::vector<double> &,                       \
                                              const std::vector<double> &);                      \

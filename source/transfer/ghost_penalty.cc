@@ -14,17 +14,6 @@ namespace kedge
       n_contents
     };
 
-    /** Parts of a point's domain in the (at most two) cells that it touches along a direction. */
-    template <int dim>
-    std::array<double, 2>
-    cell_parts(const Stencil<dim> &s, const dealii::Tensor<1, dim> &h, const int d)
-    {
-      // the slopes of three nodes are -left/(left + right)/h and right/(left + right)/h
-      if (stencil_width(s.pattern, d) == 3)
-        return {{-s.slope[d][0] * h[d], s.slope[d][2] * h[d]}};
-      return {{1., 0.}};
-    }
-
     /** Cell contents, n_contents per cell of the window (collective). */
     template <int dim>
     std::vector<double>
@@ -34,19 +23,17 @@ namespace kedge
       for (const auto &batch : patch.points.batches)
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
           {
-            const Stencil<dim>                    &s     = patch.points.stencil[slot];
-            const LatticeIndex<dim>                first = patch.window().node_index(s.first_node);
-            std::array<std::array<double, 2>, dim> parts;
-            for (int d = 0; d < dim; ++d)
-              parts[d] = cell_parts<dim>(s, patch.grid().lattice().h, d);
+            const Stencil<dim>     &s     = patch.points.stencil[slot];
+            const LatticeIndex<dim> first = patch.window().node_index(s.first_node);
             for (unsigned int v = 0; v < (1u << dim); ++v)
               {
                 LatticeIndex<dim> cell = first;
                 double            part = 1.;
                 for (int d = 0; d < dim; ++d)
                   {
-                    cell[d] += static_cast<int>((v >> d) & 1u);
-                    part *= parts[d][(v >> d) & 1u];
+                    const bool is_upper = ((v >> d) & 1u) != 0;
+                    cell[d] += s.lower_cell[d] + (is_upper ? 1 : 0);
+                    part *= is_upper ? 1. - s.lower_part[d] : s.lower_part[d];
                   }
                 if (part == 0.)
                   continue;

@@ -71,11 +71,12 @@ namespace kedge
   template <int dim>
   std::vector<double>
   MotionTransfer<dim>::velocity_change(const Trial<dim>          &trial,
+                                       const double               kept,
                                        const std::vector<double> &v_end) const
   {
     std::vector<double> change(v_end.size());
     for (std::size_t i = 0; i < v_end.size(); ++i)
-      change[i] = v_end[i] - trial.motion[field].velocity_n[i];
+      change[i] = v_end[i] - kept * trial.motion[field].velocity_n[i];
     return change;
   }
 
@@ -86,12 +87,16 @@ namespace kedge
   MotionTransfer<dim>::loss(const Trial<dim> &trial) const
   {
     const double               epsilon = parameters.lumping;
+    const double               kept    = parameters.kept_part(trial.times.dt);
     const std::vector<double>  v_end   = trial.end_velocity(scheme, field);
     const std::vector<double> &v_n     = trial.motion[field].velocity_n;
-    if (parameters.velocity_mapping == VelocityUpdate::flip)
-      return epsilon * lumping_energy(patch, velocity_change(trial, v_end));
-    return filtered_energy(patch, v_n) +
-           epsilon * (lumping_energy(patch, v_n) + lumping_energy(patch, v_end));
+    double                     result  = 0.;
+    if (epsilon > 0.)
+      result += epsilon * lumping_energy(patch, velocity_change(trial, kept, v_end));
+    if (kept < 1.)
+      result += (1. - kept * kept) * (filtered_energy(patch, v_n) +
+                                      (epsilon > 0. ? epsilon * lumping_energy(patch, v_n) : 0.));
+    return result;
   }
 
 
@@ -100,23 +105,22 @@ namespace kedge
   void
   MotionTransfer<dim>::to_points(const Trial<dim> &trial)
   {
-    const bool                flip   = parameters.velocity_mapping == VelocityUpdate::flip;
+    kept                             = parameters.kept_part(trial.times.dt);
     const auto               &motion = trial.motion[field];
     const std::vector<double> v_end  = trial.end_velocity(scheme, field);
-    interpolate_to_points(patch, flip ? velocity_change(trial, v_end) : v_end, velocities);
+    interpolate_to_points(patch, velocity_change(trial, kept, v_end), velocities);
     if (scheme.carries_acceleration)
       interpolate_to_points(patch, trial.end_acceleration(scheme, field), accelerations);
     if (!parameters.audit)
       return;
     auto new_velocities = velocities;
-    if (flip)
-      for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
-        new_velocities[slot] += patch.points.velocity[slot];
+    for (unsigned int slot = 0; slot < patch.points.size(); ++slot)
+      new_velocities[slot] += kept * patch.points.velocity[slot];
     audit_ = audit_transfer(patch,
                             new_velocities,
                             effective_mass,
                             parameters.lumping,
-                            parameters.velocity_mapping,
+                            kept,
                             motion.velocity_n,
                             v_end,
                             trial.displacement(field));
@@ -128,10 +132,7 @@ namespace kedge
   void
   MotionTransfer<dim>::update(const unsigned int slot, PointCore<dim> &state) const
   {
-    if (parameters.velocity_mapping == VelocityUpdate::flip)
-      state.velocity += velocities[slot];
-    else
-      state.velocity = velocities[slot];
+    state.velocity = kept * state.velocity + velocities[slot];
   }
 
 

@@ -68,7 +68,8 @@ namespace kedge
         constexpr int n       = stencil_size<dim>(pattern);
         const auto    offsets = node_offsets<dim, pattern>(patch.window().node_strides());
         const auto    rows    = row_slots<dim, pattern>(mass);
-        double        sum[n][n];
+        // GCC 12 takes it for aligned where it has not made it so
+        alignas(64) double sum[n][n];
         for (unsigned int slot = batch->begin; slot < batch->end;)
           {
             const unsigned int first = patch.points.stencil[slot].first_node;

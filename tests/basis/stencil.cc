@@ -59,7 +59,7 @@ namespace
   {
     const auto lattice = make_lattice<dim>(n_cells);
     Sampler    random;
-    for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp})
+    for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::spline})
       for (int repeat = 0; repeat < 500; ++repeat)
         {
           dealii::Point<dim>     x;
@@ -102,7 +102,7 @@ TYPED_TEST(BasisStencil, SumsToOneAndReproducesLinearFields)
                 zero += stencil.slope[d][i];
                 position += stencil.value[d][i] * node;
                 slope += stencil.slope[d][i] * node;
-                EXPECT_GE(stencil.value[d][i], 0.);
+                EXPECT_GE(stencil.value[d][i], -1e-16); // splines: a difference of 1/8s at a side
                 EXPECT_GE(first[d], 0);
                 EXPECT_LE(first[d] + i, lattice.n_cells[d]);
               }
@@ -115,7 +115,7 @@ TYPED_TEST(BasisStencil, SumsToOneAndReproducesLinearFields)
       });
 }
 
-TYPED_TEST(BasisStencil, IsTheHatOrItsMeanOverTheDomain)
+TYPED_TEST(BasisStencil, IsTheMeanOfItsFunctionOverTheDomain)
 {
   constexpr int dim = TypeParam::value;
   for_many_points<dim>(4,
@@ -162,7 +162,7 @@ TYPED_TEST(BasisStencil, SlopeIsTheDifferenceOfValues)
             continue; // a kink, or where the stencil is snapped to a grid line
           ++n_checked;
           for (int i = 0; i < stencil_width(stencil.pattern, d); ++i)
-            // values are quadratic in x: only round-off of 1e-16/h
+            // values are at most cubic in x: h^2 and round-off of 1e-16/h
             EXPECT_NEAR((above.value[d][i] - below.value[d][i]) / (2. * h),
                         stencil.slope[d][i],
                         1e-8);
@@ -180,7 +180,7 @@ TYPED_TEST(BasisStencil, HasTheCorrectedCentralBranch)
   for (int d = 0; d < dim; ++d)
     x[d] += 2.1 * lattice.h[d];
   const auto stencil = gimp_stencil(lattice, whole(lattice), x, half);
-  EXPECT_EQ(stencil.pattern, (1u << dim) - 1);
+  EXPECT_EQ(stencil.pattern, uniform_pattern<dim>(3));
   for (int d = 0; d < dim; ++d)
     {
       EXPECT_EQ(first_index(lattice, stencil)[d], 1);
@@ -233,7 +233,7 @@ TYPED_TEST(BasisStencil, SnapsToGridLinesThatItHardlyPasses)
   const auto more =
     gimp_stencil(lattice, whole(lattice), x, (0.2 + 1.001 * gimp_smallest_overlap) * lattice.h);
   EXPECT_EQ(less.pattern, 0u);
-  EXPECT_EQ(more.pattern, (1u << dim) - 1);
+  EXPECT_EQ(more.pattern, uniform_pattern<dim>(3));
   for (int d = 0; d < dim; ++d)
     {
       EXPECT_EQ(less.value[d][0], linear.value[d][0]);
@@ -243,6 +243,57 @@ TYPED_TEST(BasisStencil, SnapsToGridLinesThatItHardlyPasses)
       const double s = gimp_smallest_overlap;
       EXPECT_NEAR(more.value[d][0], s * s / 0.8, 0.01 * s * s / 0.8);
       EXPECT_NEAR(more.slope[d][0] * lattice.h[d], -s / 0.4, 0.01 * s / 0.4);
+    }
+}
+
+TYPED_TEST(BasisStencil, SplinesReproduceQuadraticFieldsAwayFromTheSides)
+{
+  constexpr int dim     = TypeParam::value;
+  const auto    lattice = make_lattice<dim>();
+  Sampler       random;
+  for (unsigned int sample = 0; sample < 200; ++sample)
+    {
+      dealii::Point<dim>     x;
+      dealii::Tensor<1, dim> half;
+      for (int d = 0; d < dim; ++d)
+        {
+          x[d]    = lattice.origin[d] + random(1.2, lattice.n_cells[d] - 1.2) * lattice.h[d];
+          half[d] = random(0., 0.5) * lattice.h[d];
+        }
+      const auto stencil = spline_stencil(lattice, whole(lattice), x, half);
+      const auto first   = first_index<dim>(lattice, stencil);
+      for (int d = 0; d < dim; ++d)
+        {
+          // sum_i (i^2 - 1/4) N(t - i) = t^2: the coefficients of quadratics by Marsden's identity;
+          // its mean over the domain is x^2 + l^2/3, its mean slope 2 x
+          double       value = 0., slope = 0.;
+          const double h = lattice.h[d];
+          for (int i = 0; i < stencil_width(stencil.pattern, d); ++i)
+            {
+              const double s           = lattice.origin[d] + (first[d] + i) * h - x[d];
+              const double coefficient = s * s - 0.25 * h * h;
+              value += stencil.value[d][i] * coefficient;
+              slope += stencil.slope[d][i] * coefficient;
+            }
+          EXPECT_NEAR(value / (h * h), half[d] * half[d] / (3. * h * h), 1e-4 / 3.); // snapped
+          EXPECT_NEAR(slope / h, 0., 1e-13);
+        }
+    }
+}
+
+TYPED_TEST(BasisStencil, SplinesAtASideAreThoseOfItsNodes)
+{
+  constexpr int dim     = TypeParam::value;
+  const auto    lattice = make_lattice<dim>();
+  for (const bool high : {false, true})
+    {
+      dealii::Point<dim> x;
+      for (int d = 0; d < dim; ++d)
+        x[d] = high ? lattice.upper(d) : lattice.origin[d];
+      const auto stencil = spline_stencil(lattice, whole(lattice), x, 0.3 * lattice.h);
+      EXPECT_EQ(stencil.pattern, 0u); // straight over half a cell, by u_{-1} = 2 u_0 - u_1
+      for (int d = 0; d < dim; ++d)
+        EXPECT_NEAR(stencil.value[d][high ? 1 : 0], 1., 1e-14);
     }
 }
 

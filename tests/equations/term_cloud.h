@@ -52,7 +52,7 @@ namespace kedge::test
         for (auto &term : terms)
           term->reach(0, reached);
       });
-      equations->reinit({2});
+      equations->reinit({3}); // splines reach furthest
       for (auto &term : terms)
         term->activate(cloud.points);
       trial.begin({0., 0.3}, unknowns, {patch.nodes.n_local()});

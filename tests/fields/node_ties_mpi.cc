@@ -71,7 +71,7 @@ namespace
   for_both_bases(const Check &check)
   {
     const double threshold = dim == 2 ? 0.065 : 0.1;
-    for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp})
+    for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::spline})
       {
         const Cloud<dim> cloud({basis}, 2, 41, 3, threshold);
         check(cloud, DenseCloud<dim>(cloud, {basis}), threshold);
@@ -139,7 +139,7 @@ TYPED_TEST(TransferTiesMpi, EquationsAreTheDenseProduct)
   for_both_bases<dim>([](const Cloud<dim> &cloud, const DenseCloud<dim> &dense, const double) {
     const auto      ties = all_ties(cloud);
     NodeMatrix<dim> mass;
-    mass.reinit(cloud.nodes.n_local(), 1, 2);
+    mass.reinit(cloud.nodes.n_local(), 1, 3);
     assemble_mass(cloud.patch, mass);
 
     std::vector<NodalStatus> status(cloud.nodes.n_local(), NodalStatus::free);
@@ -196,9 +196,9 @@ TYPED_TEST(TransferTiesMpi, EquationsOfVectorsAreTheDenseProduct)
   for_both_bases<dim>([](const Cloud<dim> &cloud, const DenseCloud<dim> &dense, const double) {
     const auto      ties = all_ties(cloud);
     NodeMatrix<dim> mass, matrix;
-    mass.reinit(cloud.nodes.n_local(), 1, 2);
+    mass.reinit(cloud.nodes.n_local(), 1, 3);
     assemble_mass(cloud.patch, mass);
-    matrix.reinit(cloud.nodes.n_local(), dim, 2);
+    matrix.reinit(cloud.nodes.n_local(), dim, 3);
     for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
       for (int p = 0; p < dim; ++p)
         for (unsigned int slot = 0; slot < matrix.n_slots(); ++slot)

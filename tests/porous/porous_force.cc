@@ -21,7 +21,9 @@ namespace
 
   const std::vector<std::vector<BasisKind>> all_bases = {{BasisKind::linear},
                                                          {BasisKind::gimp},
-                                                         {BasisKind::gimp, BasisKind::linear}};
+                                                         {BasisKind::gimp, BasisKind::linear},
+                                                         {BasisKind::spline},
+                                                         {BasisKind::spline, BasisKind::gimp}};
 
   /** Soil in which all terms count: stresses and pressures of order one. */
   Soil
@@ -215,7 +217,7 @@ namespace
     const Cloud<dim>         &cloud = problem.cloud;
     const std::vector<double> x     = problem.some_state();
     NodeMatrix<dim>           tangent;
-    tangent.reinit(cloud.nodes.n_local(), dim + 1, 2);
+    tangent.reinit(cloud.nodes.n_local(), dim + 1, 3);
     tangent.set_zero();
     const auto a = problem.acceleration(x);
     problem.force.add_tangent(problem.patch, problem.pores, problem.trial(x, a), tangent);

@@ -123,7 +123,7 @@ namespace
       cloud.prescribe(NodeConditions<dim>({}, {}));
       for (NodeMatrix<dim> *matrix : {&conductance, &storage})
         {
-          matrix->reinit(cloud.nodes.n_local(), 1, 2);
+          matrix->reinit(cloud.nodes.n_local(), 1, 3);
           matrix->set_zero();
         }
       ghosts.add_gradient_penalty(cloud.patch, 0.1 * factor, conductance);
@@ -287,7 +287,7 @@ TYPED_TEST(PorousGhostsMpi, ProjectionOfPressures)
 
       // other fields: their mean stays, their jumps become smaller
       NodeMatrix<dim> little;
-      little.reinit(step.cloud.nodes.n_local(), 1, 2);
+      little.reinit(step.cloud.nodes.n_local(), 1, 3);
       little.set_zero();
       step.ghosts.add_value_penalty(step.cloud.patch, 0.003, little);
       const auto wave = [](const dealii::Point<dim> &x) {

@@ -26,7 +26,7 @@ namespace
     for (unsigned int slot = 0; slot < cloud.step.size(); ++slot)
       pressure.push_back(exact(cloud.step.location[slot]));
     PressureMapping<dim> mapping(kind);
-    mapping.map(cloud.patch, pressure, 2, unknowns);
+    mapping.map(cloud.patch, pressure, 3, unknowns);
     double error = 0.;
     for (unsigned int i = 0; i < cloud.nodes.n_local(); ++i)
       {
@@ -42,17 +42,19 @@ namespace
 TEST(PorousPressureMappingMpi, ConsistentIsExactForLinearPressures)
 {
   // pressures of size 10; conjugate gradients stop at 1e-12 of their residual, which a
-  // condition number of some 1e2 of the scaled matrix makes 1e-10 of the pressure
-  for (const auto basis : {BasisKind::linear, BasisKind::gimp})
+  // condition number of some 1e2 of the scaled matrix makes 1e-10 of the pressure; that of splines'
+  // is 15 times as high in space (7.5 per direction within a body, where linear functions have 3)
+  for (const auto basis : {BasisKind::linear, BasisKind::gimp, BasisKind::spline})
     {
-      EXPECT_LT(error_of_linear<2>(PressureMap::consistent, basis, 1.), 1e-8);
-      EXPECT_LT(error_of_linear<3>(PressureMap::consistent, basis, 1.), 1e-8);
+      const double tolerance = basis == BasisKind::spline ? 1.5e-7 : 1e-8;
+      EXPECT_LT(error_of_linear<2>(PressureMap::consistent, basis, 1.), tolerance);
+      EXPECT_LT(error_of_linear<3>(PressureMap::consistent, basis, 1.), tolerance);
     }
 }
 
 TEST(PorousPressureMappingMpi, LumpedIsExactForConstantPressuresAlone)
 {
-  for (const auto basis : {BasisKind::linear, BasisKind::gimp})
+  for (const auto basis : {BasisKind::linear, BasisKind::gimp, BasisKind::spline})
     {
       EXPECT_LT(error_of_linear<2>(PressureMap::lumped, basis, 0.), 1e-12);
       // at the rim it is the mean over half a cell or more: a quarter of 0.5 m off at least

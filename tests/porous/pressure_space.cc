@@ -179,7 +179,7 @@ namespace
       points.n_history = n_columns<VonMises>;
       for (unsigned int slot = 0; slot < points.size(); ++slot)
         points.history.insert(points.history.end(), {0., 0.4}); // alpha, sigma_y
-      matrix.reinit(c.nodes.n_local(), dim + 1, 2);
+      matrix.reinit(c.nodes.n_local(), dim + 1, 3);
       equations.reinit(patch, c.status, matrix);
     }
 
@@ -291,7 +291,8 @@ namespace
   void
   check_all_slopes(const Material &material)
   {
-    for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::quadratic})
+    for (const BasisKind basis :
+         {BasisKind::linear, BasisKind::gimp, BasisKind::spline, BasisKind::quadratic})
       for (const double threshold : {0., 0.15})
         {
           SCOPED_TRACE("basis " + std::to_string(int(basis)) + ", threshold " +

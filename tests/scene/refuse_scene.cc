@@ -88,6 +88,8 @@ TEST(SceneRead, WrongValuesAreAnsweredWithWhatIsAllowed)
     {"Newton/Tolerance", "0", "greater than 0"},
     {"Newton/Iterations", "0", "at least 1"},
     {"Mapping/Lumping", "-1", "at least 0"},
+    {"Mapping/Filter time", "0", "greater than 0"},
+    {"Materials/soft/Viscosity", "-1", "at least 0"},
     {"Output/Formats", "vtk", "Did you mean 'vtu'?"},
     {"Output/Points interval", "-1", "at least 0"},
     {"Probes/tip/Face", "left", "Only one of Place and Face"},
@@ -188,8 +190,8 @@ TEST(SceneRead, ASceneNeedsABody)
   expect_parts(message_of<3>(text + "subsection Bodies\nend\n"), {"beam.prm:17: ", "has no body"});
 }
 
-// A load factor is found for dead loads alone, without inertia, and from a point of a body.
-TEST(SceneRead, LoadControlIsForDeadLoadsWithoutInertia)
+// A load factor is found for loads and pressures, without inertia, and from a point of a body.
+TEST(SceneRead, LoadControlIsForLoadsWithoutInertia)
 {
   const auto message = [](std::vector<std::string> more) {
     std::vector<std::string> settings = {"Load control/Body = beam",
@@ -214,7 +216,7 @@ TEST(SceneRead, LoadControlIsForDeadLoadsWithoutInertia)
   expect_parts(message({"Tractions/wind/Body = beam",
                         "Tractions/wind/Side = top",
                         "Tractions/wind/Pressure = t"}),
-               {"Tractions/wind/Pressure follows its face"});
+               {"no error"}); // a pressure that follows its face is scaled too
   expect_parts(message({"Body conditions/press/Body = beam",
                         "Body conditions/press/Side = top",
                         "Body conditions/press/Component y = force(t)"}),
@@ -245,6 +247,11 @@ TEST(SceneRead, SettingsWithoutEffectAreSaid)
                {"Bodies/beam/Initial velocity = 1; 0 has no effect without inertia"});
   expect_parts(lines({"Time/Newmark beta = 0.3"}),
                {"Time/Newmark beta = 0.3 has no effect but with Time/Scheme = newmark"});
+  expect_parts(lines({"Mapping/Velocity = pic", "Mapping/Filter time = 2"}),
+               {"Filter time = 2 has no effect but with Mapping/Velocity = flip"});
+  expect_parts(message_of(full_scene,
+                          {"Bodies/beam/Basis = spline", "Stabilisation/Method = ghost"}),
+               {"Stabilisation/Method = ghost", "splines choose aggregation or none"});
   expect_parts(lines({"Stabilisation/Ghost mass factor = 7", "Stabilisation/Method = none"}),
                {"Ghost mass factor = 7 has no effect but with Stabilisation/Method = ghost"});
   expect_parts(lines({"Materials/spare/Density = 1",

@@ -84,7 +84,7 @@ namespace
       this->terms.push_back(std::move(follower));
       this->terms.push_back(std::make_unique<InertiaTerm<dim>>(0, this->patch, mass, this->scheme));
       this->start();
-      mass.reinit(this->patch.nodes.n_local(), 1, 2);
+      mass.reinit(this->patch.nodes.n_local(), 1, 3);
       assemble_mass(this->patch, mass);
       blend_mass(0.5, mass, this->patch.nodes.n_local()); // well conditioned whatever the points
       this->change_unknowns(0.02);
@@ -109,7 +109,7 @@ TYPED_TEST_SUITE(SolidFollower, Dimensions);
 TYPED_TEST(SolidFollower, TangentIsTheSlope)
 {
   constexpr int dim = TypeParam::value;
-  for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp})
+  for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::spline})
     for (const SchemeKind kind : {SchemeKind::clc_midpoint, SchemeKind::newmark})
       {
         Cloud<dim>   cloud({basis}, 2, 29);
@@ -142,7 +142,7 @@ TYPED_TEST(SolidFollower, AClosedSurfaceOfFacetsFeelsNoForce)
 TYPED_TEST(SolidFollower, AClosedSurfaceFeelsNoForce)
 {
   constexpr int dim = TypeParam::value;
-  for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp})
+  for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::spline})
     {
       Cloud<dim>   cloud({basis}, 2, 29);
       Pressed<dim> step(cloud, SchemeKind::clc_midpoint, "3");

@@ -48,7 +48,7 @@ TYPED_TEST(SolidGhostTerm, TangentIsTheSlopeOfTheResidual)
         step.terms.push_back(std::move(ghost_term));
         step.terms.push_back(std::move(ghost_inertia));
         step.start();
-        mass.reinit(step.patch.nodes.n_local(), 1, 2);
+        mass.reinit(step.patch.nodes.n_local(), 1, 3);
         assemble_mass(step.patch, mass);
         step.change_unknowns(0.03);
         expect_slope_of_residual(*step.equations);

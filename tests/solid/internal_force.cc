@@ -12,10 +12,12 @@ namespace
   {};
   using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 
-  /** Linear, GIMP, and both at once in two bodies. */
+  /** Linear, GIMP, both at once in two bodies, and splines. */
   const std::vector<std::vector<BasisKind>> all_bases = {{BasisKind::linear},
                                                          {BasisKind::gimp},
-                                                         {BasisKind::gimp, BasisKind::linear}};
+                                                         {BasisKind::gimp, BasisKind::linear},
+                                                         {BasisKind::spline},
+                                                         {BasisKind::spline, BasisKind::gimp}};
 
   template <int dim>
   InternalForce<dim>
@@ -160,9 +162,9 @@ TYPED_TEST(SolidInternalForce, StiffnessIsTheForcesSlope)
 {
   constexpr int dim = TypeParam::value;
   for_all_bases<dim>([](const Cloud<dim> &cloud) {
-    check_stiffness(cloud, make_force<dim>(StressRule::at_configuration, 1.), 2);
-    check_stiffness(cloud, make_force<dim>(StressRule::at_configuration, 0.55), 2);
-    check_stiffness(cloud, make_force<dim>(StressRule::conserving, 0.5), 2);
+    check_stiffness(cloud, make_force<dim>(StressRule::at_configuration, 1.), 3);
+    check_stiffness(cloud, make_force<dim>(StressRule::at_configuration, 0.55), 3);
+    check_stiffness(cloud, make_force<dim>(StressRule::conserving, 0.5), 3);
   });
 }
 
@@ -178,9 +180,9 @@ TYPED_TEST(SolidInternalForce, StiffnessIsTheForcesSlopeWhereItYields)
              &n_plastic);
       EXPECT_GT(n_plastic, 0.2 * cloud.step.size());
       EXPECT_LT(n_plastic, 0.8 * cloud.step.size());
-      check_stiffness(cloud, make_plastic_force<dim>(StressRule::at_configuration, 1.), 2);
-      check_stiffness(cloud, make_plastic_force<dim>(StressRule::at_configuration, 0.55), 2);
-      check_stiffness(cloud, make_plastic_force<dim>(StressRule::conserving, 0.5), 2);
+      check_stiffness(cloud, make_plastic_force<dim>(StressRule::at_configuration, 1.), 3);
+      check_stiffness(cloud, make_plastic_force<dim>(StressRule::at_configuration, 0.55), 3);
+      check_stiffness(cloud, make_plastic_force<dim>(StressRule::conserving, 0.5), 3);
     },
     true);
 }
@@ -236,7 +238,7 @@ TYPED_TEST(SolidInternalForce, NewtonIsOfSecondOrderWhileYielding)
               errors.push_back(norm(error));
               if (errors.back() < 1e-12)
                 break;
-              auto                   tangent = stiffness_at(cloud, internal, u, 2);
+              auto                   tangent = stiffness_at(cloud, internal, u, 3);
               const auto             force   = force_at(cloud, internal, u);
               dealii::Vector<double> residual(u.size()), correction(u.size());
               for (unsigned int i = 0; i < u.size(); ++i)

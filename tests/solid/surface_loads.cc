@@ -176,7 +176,7 @@ TYPED_TEST(SolidSurfaceLoads, BalanceAUniformStress)
 TYPED_TEST(SolidSurfaceLoads, KeepForceAndMoment)
 {
   constexpr int dim = TypeParam::value;
-  for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp})
+  for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::spline})
     {
       Block<dim>              block(basis, 0.3, 0.25);
       TractionParameters<dim> traction;

@@ -34,7 +34,7 @@ namespace
       auto reached = this->step.reached_nodes(this->grid.window());
       ghosts.find(this->patch, moduli, reached);
       this->nodes.reinit(this->grid, reached);
-      jumps.reinit(this->nodes.n_local(), 1, 2);
+      jumps.reinit(this->nodes.n_local(), 1, 3);
       jumps.set_zero();
       ghosts.add_mass(this->patch, 1., jumps);
     }
@@ -71,6 +71,7 @@ namespace
     check(GhostCloud<dim>({BasisKind::linear}));
     check(GhostCloud<dim>({BasisKind::gimp}));
     check(GhostCloud<dim>({BasisKind::gimp, BasisKind::linear}));
+    check(GhostCloud<dim>({BasisKind::spline}));
   }
 
   /** Offsets of a face's nodes: 3 along the normal by 2, x fastest. */
@@ -214,7 +215,7 @@ namespace
       patch.reinit(points, [&](std::vector<unsigned char> &reached) {
         ghosts.find(patch, {1.}, reached);
       });
-      mass.reinit(nodes.n_local(), 1, 2);
+      mass.reinit(nodes.n_local(), 1, 3);
       assemble_mass(patch, mass);
     }
 
@@ -376,7 +377,7 @@ TYPED_TEST(TransferGhostMpi, StiffnessIsModulusOverSquareOfTheCellSize)
   constexpr int dim = TypeParam::value;
   for_all_bases<dim>([](const GhostCloud<dim> &cloud) {
     NodeMatrix<dim> stiffness;
-    stiffness.reinit(cloud.nodes.n_local(), 1, 2);
+    stiffness.reinit(cloud.nodes.n_local(), 1, 3);
     stiffness.set_zero();
     cloud.ghosts.add_stiffness(cloud.patch, 3., stiffness);
     const auto          x = cloud.random_nodal(1., 1, 1);

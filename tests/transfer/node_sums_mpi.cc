@@ -23,7 +23,9 @@ namespace
   {
     const std::vector<std::vector<BasisKind>> all_bases = {{BasisKind::linear},
                                                            {BasisKind::gimp},
-                                                           {BasisKind::gimp, BasisKind::linear}};
+                                                           {BasisKind::gimp, BasisKind::linear},
+                                                           {BasisKind::spline},
+                                                           {BasisKind::spline, BasisKind::gimp}};
     for (unsigned int b = 0; b < all_bases.size(); ++b)
       {
         SCOPED_TRACE("basis " + std::to_string(b));
@@ -37,7 +39,7 @@ namespace
   effective_mass(const Cloud<dim> &cloud, const double epsilon)
   {
     NodeMatrix<dim> mass;
-    mass.reinit(cloud.nodes.n_local(), 1, 2);
+    mass.reinit(cloud.nodes.n_local(), 1, 3);
     assemble_mass(cloud.patch, mass);
     blend_mass(epsilon, mass, cloud.nodes.n_local());
     return mass;

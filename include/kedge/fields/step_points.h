@@ -208,39 +208,47 @@ namespace kedge
     return offsets;
   }
 
+  namespace internal
+  {
+    /** Runs the worker if the pattern has the digits of @p number to the base n_widths. */
+    template <int dim, int n_widths, unsigned int number, typename Worker>
+    inline bool
+    run_if_pattern(const unsigned int pattern, Worker &worker)
+    {
+      constexpr unsigned int candidate =
+        pattern_part(2 + number % n_widths, 0) | pattern_part(2 + number / n_widths % n_widths, 1) |
+        (dim == 3 ? pattern_part(2 + number / (n_widths * n_widths), 2) : 0u);
+      if (pattern != candidate)
+        return false;
+      worker.template run<candidate>();
+      return true;
+    }
+
+    template <int dim, int n_widths, typename Worker, unsigned int... number>
+    inline void
+    dispatch_pattern(const unsigned int pattern,
+                     Worker            &worker,
+                     std::integer_sequence<unsigned int, number...>)
+    {
+      const bool found = (run_if_pattern<dim, n_widths, number>(pattern, worker) || ...);
+      AssertThrow(found, dealii::ExcInternalError());
+    }
+  } // namespace internal
+
   /**
    * Calls worker.template run<pattern>() with the pattern as a compile-time
-   * constant: once per batch.
+   * constant: once per batch. Each pattern makes code of its own; workers that never see
+   * splines say so by @p most_nodes, in a direction.
    */
-  template <int dim, typename Worker>
+  template <int dim, int most_nodes = most_stencil_nodes, typename Worker>
   inline void
   dispatch_pattern(const unsigned int pattern, Worker &&worker)
   {
-    switch (pattern)
-      {
-        case 0:
-          return worker.template run<0>();
-        case 1:
-          return worker.template run<1>();
-        case 2:
-          return worker.template run<2>();
-        case 3:
-          return worker.template run<3>();
-        default:
-          break;
-      }
-    if constexpr (dim == 3)
-      switch (pattern)
-        {
-          case 4:
-            return worker.template run<4>();
-          case 5:
-            return worker.template run<5>();
-          case 6:
-            return worker.template run<6>();
-          default:
-            return worker.template run<7>();
-        }
+    constexpr int n_widths = most_nodes - 1;
+    internal::dispatch_pattern<dim, n_widths>(
+      pattern,
+      worker,
+      std::make_integer_sequence<unsigned int, n_widths * n_widths *(dim == 3 ? n_widths : 1)>());
   }
 } // namespace kedge
 

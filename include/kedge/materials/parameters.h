@@ -82,6 +82,7 @@ namespace kedge
     double       density       = 0; ///< [kg/m^3]
     double       young_modulus = 0; ///< [Pa]
     double       poisson_ratio = 0; ///< [-]
+    double       viscosity     = 0; ///< eta, of a dashpot beside the material [Pa s]
 
     /** n_0, pores/volume at J = 1, of a skeleton that is or can be saturated [-] */
     double initial_porosity = 0;

@@ -14,6 +14,7 @@ namespace kedge
   {
     linear,
     gimp,
+    spline,
     quadratic
   };
 

@@ -17,6 +17,7 @@ namespace kedge
     std::vector<std::string>  names;
     std::vector<Material>     materials;
     std::vector<double>       young_moduli; ///< [Pa]
+    std::vector<double>       viscosities;  ///< [Pa s]
     std::vector<double>       densities;    ///< of the material, of grains in soil [kg/m^3]
     std::vector<BasisKind>    bases;
     std::vector<bool>         shared_volume;  ///< whether points in a cell share their dilatation

@@ -3,6 +3,7 @@
 
 #include <kedge/fields/point_packs.h>
 #include <kedge/solid/group_dilatation.h>
+#include <kedge/stress/viscous_stress.h>
 
 namespace kedge
 {
@@ -17,6 +18,7 @@ namespace kedge
       const typename StepPoints<dim>::Batch &batch;
       double                                 alpha;
       const GroupDilatation                 *dilatation; ///< if patch.points.is_grouped(batch)
+      double                                 viscous_modulus = 0.; ///< 2 eta/dt of the body [Pa]
     };
 
     /**
@@ -66,6 +68,7 @@ namespace kedge
         : context(context)
         , material(material)
         , function(law_function<dim>(material, {rule, context.dilatation != nullptr, with_tangent}))
+        , with_tangent(with_tangent)
       {}
 
       void
@@ -74,11 +77,26 @@ namespace kedge
                ForceStress<dim, Pack> &result) const
       {
         function(context, material, slots, gradient, result);
+        if (context.viscous_modulus > 0.)
+          add_viscosity(slots, gradient, result);
+      }
+
+      void
+      add_viscosity(const PackOfSlots &slots,
+                    const Pack (&gradient)[dim][dim],
+                    ForceStress<dim, Pack> &result) const
+      {
+        Pack modulus;
+        for (unsigned int lane = 0; lane < pack_width; ++lane)
+          modulus.set(lane,
+                      context.viscous_modulus * context.patch.points.determinant[slots.slot(lane)]);
+        add_viscous_stress<dim, Pack>(gradient, modulus, with_tangent, result);
       }
 
       const BatchContext<dim> &context;
       const Material          &material;
       const LawFunction<dim>   function;
+      const bool               with_tangent;
     };
   } // namespace internal
 } // namespace kedge

@@ -46,11 +46,15 @@ namespace kedge
     /**
      * Adds sum_p V0 P dN_A/dx_n to @p force [N], dim values per local node.
      * Stops at the first point that fails.
+     *
+     * @param viscous_moduli 2 eta/dt of each body's dashpot [Pa], see add_viscous_stress(); empty:
+     *                       none has one
      */
     PointStatus
     add_force(const Patch<dim>          &patch,
               const std::vector<double> &displacement,
-              std::vector<double>       &force) const;
+              std::vector<double>       &force,
+              const std::vector<double> &viscous_moduli = {}) const;
 
     /**
      * Adds d force / d u to @p stiffness [N/m]. The displacement must be one
@@ -59,7 +63,8 @@ namespace kedge
     void
     add_stiffness(const Patch<dim>          &patch,
                   const std::vector<double> &displacement,
-                  NodeMatrix<dim>           &stiffness) const;
+                  NodeMatrix<dim>           &stiffness,
+                  const std::vector<double> &viscous_moduli = {}) const;
 
     const Material &
     material_of_body(const unsigned int body) const

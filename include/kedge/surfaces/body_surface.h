@@ -5,18 +5,19 @@
 #include <kedge/geometry/surface_mesh.h>
 #include <kedge/grid/open_sides.h>
 #include <kedge/surfaces/adapted_surface.h>
+#include <kedge/surfaces/face_functions.h>
 
 namespace kedge
 {
   /**
-   * The surface of a body, carried by it. A vertex moves by the displacements of the corners of
-   * its *root cell*, the nearest cell that the body fills well: by the multilinear polynomial of
-   * that cell, extrapolated to the vertex, dx = sum_I N_I(x) u_I,   sum_I N_I = 1,   sum_I N_I x_I
-   * = x. Rigid motions are therefore followed to round-off, and forces that act on vertices come to
-   * the nodes with their resultant and their moment, and with nothing for nodes that next to no
-   * mass belongs to. What a step tries is not kept here: move() says where its end would bring the
-   * surface, commit() goes there. Facets that a step has stretched are divided at its end, facets
-   * that it has drawn together become one (adapt()).
+   * The surface of a body, carried by it. A vertex moves by the displacements of the nodes of
+   * its *root cell*, the nearest cell that the body fills well: by the polynomial of the grid's
+   * functions in that cell (functions_of_cell()), continued to the vertex, dx = sum_I N_I(x) u_I,
+   * sum_I N_I = 1,   sum_I N_I x_I = x. Rigid motions are therefore followed to round-off, and
+   * forces that act on vertices come to the nodes with their resultant and their moment, and with
+   * nothing for nodes that next to no mass belongs to. What a step tries is not kept here: move()
+   * says where its end would bring the surface, commit() goes there. Facets that a step has
+   * stretched are divided at its end, facets that it has drawn together become one (adapt()).
    *
    * Facets whose middle is beyond an open side of the grid have left it with their material, and so
    * have all once the body has no points left. They stay where they were and act on nothing.
@@ -131,7 +132,7 @@ namespace kedge
     interpolate_pressure(const std::vector<double> &unknowns,
                          std::vector<double>       &at_vertices) const;
 
-    /** Calls visit(local node, N) for the corners of a vertex's root cell, if this rank owns it. */
+    /** Calls visit(local node, N) for the nodes of a vertex's root cell, if this rank owns it. */
     template <typename Visit>
     void
     for_nodes(const unsigned int vertex, const Visit &visit) const
@@ -154,23 +155,22 @@ namespace kedge
     {
       if (root_of_vertex[vertex] == elsewhere)
         return;
-      const auto &nodes = roots[root_of_vertex[vertex]].nodes;
-      for (unsigned int c = 0; c < n_corners; ++c)
-        visit(nodes[c], weights[vertex][c]);
+      for (unsigned int k = first_weight[vertex]; k < first_weight[vertex + 1]; ++k)
+        visit(weights[k].node, weights[k].value);
     }
 
     /** A cell whose functions say how a place on the surface moves. */
     struct Root
     {
-      LatticeIndex<dim>                   cell;
-      std::array<unsigned int, n_corners> nodes;    ///< local numbers
-      bool                                is_own;   ///< whether it is this rank's
-      bool                                is_known; ///< whether this rank knows its nodes
-
-      /** Its functions, continued beyond it. */
-      std::array<double, n_corners>
-      functions(const Lattice<dim> &lattice, const dealii::Point<dim> &x) const;
+      LatticeIndex<dim> cell;
+      bool              is_own   = false; ///< whether it is this rank's
+      bool              is_known = false; ///< whether this rank knows its nodes
     };
+
+    /** Calls visit(local node, N) with the functions of a root that is known, continued to x. */
+    template <typename Visit>
+    void
+    for_functions(const Root &root, const dealii::Point<dim> &x, const Visit &visit) const;
 
     /**
      * The root of a place in a cell: the cell if points of the body are in it (nodes that it fills
@@ -214,6 +214,13 @@ namespace kedge
     const Patch<dim>  &patch;
 
   private:
+    /** A node's part in the motion of a vertex. */
+    struct NodeWeight
+    {
+      unsigned int node; ///< local number
+      double       value;
+    };
+
     /** The root of a vertex whose nodes are not known to this rank. */
     static constexpr unsigned int elsewhere = static_cast<unsigned int>(-1);
 
@@ -230,18 +237,48 @@ namespace kedge
               const std::vector<double> &filling,
               const int                  radius) const;
 
-    const OpenSides<dim>                       open_sides;
-    EdgeLengths                                edges;
-    CarriedSurface<dim>                        committed, moved;
-    FacetHeritage                              heritage_;
-    unsigned int                               generation_ = 0;
-    std::vector<Root>                          roots;      ///< of vertices, in use here
-    std::vector<bool>                          has_points; ///< cells of the window, of the body
-    std::vector<unsigned int>                  root_of_vertex;
-    std::vector<bool>                          is_own; ///< by vertex: the root cell is this rank's
-    bool                                       is_known = false; ///< claimed: roots of all vertices
-    std::vector<std::array<double, n_corners>> weights;          ///< of each vertex
+    const OpenSides<dim>      open_sides;
+    EdgeLengths               edges;
+    CarriedSurface<dim>       committed, moved;
+    FacetHeritage             heritage_;
+    unsigned int              generation_ = 0;
+    std::vector<Root>         roots;      ///< of vertices, in use here
+    std::vector<bool>         has_points; ///< cells of the window, of the body
+    std::vector<unsigned int> root_of_vertex;
+    std::vector<bool>         is_own;           ///< by vertex: the root cell is this rank's
+    bool                      is_known = false; ///< claimed: roots of all vertices
+    std::vector<unsigned int> first_weight;     ///< of each vertex, and the end
+    std::vector<NodeWeight>   weights;
   };
+
+  template <int dim>
+  template <typename Visit>
+  void
+  BodySurface<dim>::for_functions(const Root               &root,
+                                  const dealii::Point<dim> &x,
+                                  const Visit              &visit) const
+  {
+    const auto functions = functions_of_cell<dim>(patch, patch.basis_of(body), root.cell, x);
+    AssertThrow(functions, dealii::ExcInternalError());
+    const auto first = patch.window().node_index(functions->first_node);
+    int        n     = 1;
+    for (int d = 0; d < dim; ++d)
+      n *= stencil_width(functions->pattern, d);
+    for (int A = 0; A < n; ++A)
+      {
+        LatticeIndex<dim> node  = first;
+        double            value = 1.;
+        for (int d = 0, rest = A; d < dim; ++d)
+          {
+            const int width = stencil_width(functions->pattern, d);
+            node[d] += rest % width;
+            value *= functions->value[d][rest % width];
+            rest /= width;
+          }
+        visit(static_cast<unsigned int>(patch.nodes.local(patch.window().node_number(node))),
+              value);
+      }
+  }
 } // namespace kedge
 
 #endif

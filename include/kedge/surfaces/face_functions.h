@@ -33,7 +33,9 @@ namespace kedge
 
   /**
    * The functions of the grid itself in a cell, at a place @p x in it or, continued, beyond it:
-   * with their slopes. Of the quadratic basis those of the element that the cell belongs to.
+   * with their slopes. Of the quadratic basis those of the element that the cell belongs to, of
+   * splines those of the half of the cell, per direction, that is nearer and has its nodes in use;
+   * if none has, the linear ones.
    *
    * @return nothing if one of their nodes is not in use
    */

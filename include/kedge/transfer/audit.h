@@ -36,10 +36,12 @@ namespace kedge
    *            K:  -eps/2 dv D dv                                (3.182)
    *   PIC      J:  -eps x_{n+1} x (D v_{n+1})                    (3.177)
    *            K:  -eps/2 v_{n+1} D v_{n+1} - P2G's K            (3.180)
+   *   between  J:  -eps x_{n+1} x (D w),  w = v_{n+1} - k v_n
+   *            K:  -eps/2 w D w - (1 - k^2) P2G's K
    *
-   * and zero for all others. The last line of (3.180) as printed counts
-   * eps/2 v_n D v_n twice. The expressions presume that (3.163) holds at all
-   * nodes: where node conditions prescribe a velocity, the measured losses
+   * and zero for all others; in between the points keep the part k of v': 1 is FLIP, 0 PIC. The
+   * last line of (3.180) as printed counts eps/2 v_n D v_n twice. The expressions presume that
+   * (3.163) holds at all nodes: where node conditions prescribe a velocity, the measured losses
    * hold in addition what the condition takes or gives.
    */
   template <int dim>
@@ -77,7 +79,7 @@ namespace kedge
    * @param new_velocities of the points, by slot [m/s]
    * @param mass           effective mass M~ of (3.161), this rank's share
    * @param lumping        epsilon in it
-   * @param update         how the points got their new velocities
+   * @param kept           part of v' that the points have kept: 1 with FLIP, 0 with PIC
    * @param v_n, v_np1     nodal velocities [m/s]
    * @param u              nodal displacements over the step [m]
    */
@@ -87,7 +89,7 @@ namespace kedge
                  const std::vector<dealii::Tensor<1, dim>> &new_velocities,
                  const NodeMatrix<dim>                     &mass,
                  const double                               lumping,
-                 const VelocityUpdate                       update,
+                 const double                               kept,
                  const std::vector<double>                 &v_n,
                  const std::vector<double>                 &v_np1,
                  const std::vector<double>                 &u);

@@ -59,8 +59,10 @@ namespace kedge
 
     /**
      * What the mappings of a step take from the points' kinetic energy, this rank's share [J]; not
-     * negative. With D = M~ - M, of FLIP 1/2 dv D dv, dv the change of the nodal velocities; of PIC
-     * 1/2 v_n D v_n + 1/2 v_{n+1} D v_{n+1} and what the points' velocities had beside v_n.
+     * negative. Of what the points' velocities have beside v_n, v'_p, they keep the part k: with
+     * w = v_{n+1} - k v_n and D = M~ - M it is
+     *   1/2 w D w + (1 - k^2) (1/2 v_n D v_n + 1/2 sum m |v'_p|^2),
+     * with k = 1 for FLIP, exp(-dt/Filter time) with a filter, 0 for PIC.
      */
     double
     loss(const Trial<dim> &trial) const;
@@ -69,7 +71,7 @@ namespace kedge
     bool
     is_lossy() const
     {
-      return parameters.lumping > 0. || parameters.velocity_mapping == VelocityUpdate::pic;
+      return parameters.lumping > 0. || parameters.kept_part(1.) < 1.;
     }
 
     /** Writes the motion of a point at the end of the step, but for its acceleration. */
@@ -94,7 +96,9 @@ namespace kedge
     LinearStatus
     project(const std::vector<dealii::Tensor<1, dim>> &at_points, std::vector<double> &at_nodes);
     std::vector<double>
-    velocity_change(const Trial<dim> &trial, const std::vector<double> &v_end) const;
+    velocity_change(const Trial<dim>          &trial,
+                    const double               kept,
+                    const std::vector<double> &v_end) const;
     const NodeMatrix<dim> &
     mapping_mass() const
     {
@@ -108,8 +112,9 @@ namespace kedge
     const int                           radius;
     NodeMatrix<dim>                     effective_mass, mapped_mass;
     bool                                has_own_mass = false; ///< terms have added to the mapping's
+    double                              kept = 1.; ///< of the points' velocities, in this step
     VelocityMapping<dim>                mapping;
-    std::vector<dealii::Tensor<1, dim>> velocities; ///< new ones, or with FLIP their changes
+    std::vector<dealii::Tensor<1, dim>> velocities; ///< what is added to the part that is kept
     std::vector<dealii::Tensor<1, dim>> accelerations;
     std::optional<TransferAudit<dim>>   audit_;
   };

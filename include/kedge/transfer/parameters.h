@@ -1,6 +1,8 @@
 #ifndef kedge_transfer_parameters_h
 #define kedge_transfer_parameters_h
 
+#include <cmath>
+
 namespace kedge
 {
   enum class VelocityUpdate
@@ -30,8 +32,18 @@ namespace kedge
   struct TransferParameters
   {
     VelocityUpdate velocity_mapping = VelocityUpdate::flip;
+    double         filter_time      = 0;     ///< of flip [s]; 0: nothing is filtered
     double         lumping          = 0;     ///< epsilon of (3.161): 0 consistent, 1 lumped
     bool           audit            = false; ///< write what each mapping loses, Tables 3.1, 3.2
+
+    /** Part of what only the points know of their velocities that is left after a step dt [-]. */
+    double
+    kept_part(const double dt) const
+    {
+      return velocity_mapping == VelocityUpdate::pic ? 0.
+             : filter_time == 0.                     ? 1.
+                                                     : std::exp(-dt / filter_time);
+    }
   };
 } // namespace kedge
 
