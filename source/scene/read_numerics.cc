@@ -1,5 +1,6 @@
 #include <kedge/scene/read_numerics.h>
 #include <kedge/scene/values.h>
+#include <kedge/time_integration/scheme.h>
 
 #include <algorithm>
 #include <map>
@@ -129,5 +130,29 @@ namespace kedge
     if (!section.is_empty("Ghost storage factor"))
       stabilisation.ghost_storage_factor = section.number("Ghost storage factor");
     return stabilisation;
+  }
+
+
+
+  void
+  check_stabilisation(const ParameterReader     &reader,
+                      const StabilisationKind    method,
+                      const std::set<BasisKind> &bases,
+                      const TimeParameters      &time)
+  {
+    const SectionReader section(reader, {"Stabilisation"});
+    const bool          has_splines = bases.count(BasisKind::spline) > 0;
+    if ((bases.count(BasisKind::quadratic) > 0 || has_splines) &&
+        method == StabilisationKind::ghost)
+      throw section.error(
+        "Method",
+        "The ghost penalty is made for linear elements and reaches no node beyond "
+        "them; with the quadratic basis and with splines choose aggregation or "
+        "none.");
+    if (has_splines && Scheme(time).dynamic && method == StabilisationKind::none)
+      throw section.error(
+        "Method",
+        "With splines and inertia it must be aggregation: the outermost nodes weigh "
+        "too little for a mass matrix that can be solved.");
   }
 } // namespace kedge

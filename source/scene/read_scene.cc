@@ -301,15 +301,10 @@ namespace kedge
         !scene.bodies.empty() && scene.bodies[0].basis == BasisKind::quadratic;
       if (is_quadratic || (scene.pore_fluid && scene.pore_fluid->coarse_pressure))
         scene.grid.node_intervals = 2;
-      const bool has_splines =
-        std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyParameters<dim> &body) {
-          return body.basis == BasisKind::spline;
-        });
-      if ((is_quadratic || has_splines) && scene.stabilisation.method == StabilisationKind::ghost)
-        throw SectionReader(reader, {"Stabilisation"})
-          .error("Method",
-                 "The ghost penalty is made for linear elements and reaches no node beyond them; "
-                 "with the quadratic basis and with splines choose aggregation or none.");
+      std::set<BasisKind> bases;
+      for (const auto &body : scene.bodies)
+        bases.insert(body.basis);
+      check_stabilisation(reader, scene.stabilisation.method, bases, scene.time);
       if (!is_quadratic)
         return;
       for (const MaterialParameters &material : scene.materials)

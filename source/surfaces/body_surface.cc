@@ -1,9 +1,11 @@
+#include <kedge/base/user_errors.h>
 #include <kedge/surfaces/body_surface.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 namespace kedge
 {
@@ -97,8 +99,15 @@ namespace kedge
     if (most == 0.) // far from all material: what is torn off follows the nearest cell there is
       {
         const int widest = *std::max_element(window.n_cells.begin(), window.n_cells.end());
-        AssertThrow(radius <= 2 * widest,
-                    dealii::ExcMessage("The body '" + body_name + "' has no material points."));
+        if (radius > 2 * widest)
+          {
+            std::ostringstream message;
+            message << "Surface of body '" << body_name << "': its vertex at (" << x
+                    << ") is farther from all its material points than the grid in use is wide. A "
+                       "body that is too thin for its cells cannot carry its surface; take smaller "
+                       "cells or more of them over its thickness.";
+            throw UserError(message.str());
+          }
         return root_cell(x, filling, 2 * radius);
       }
     return least < std::numeric_limits<double>::max() ? nearest : fullest;

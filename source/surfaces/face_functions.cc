@@ -155,6 +155,7 @@ namespace kedge
       {
         if (splines_of_cell<dim>(patch, cell, x, result))
           return result;
+        result = {}; // the linear functions
       }
     else if (basis == BasisKind::quadratic)
       for (int d = 0; d < dim; ++d)

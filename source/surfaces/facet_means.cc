@@ -66,22 +66,6 @@ namespace kedge
                               });
     }
 
-    /** The lattice between whose lines a body's functions are polynomials: splines have kinks in
-     * the middle of the grid's cells. */
-    template <int dim>
-    Lattice<dim>
-    lattice_of_polynomials(const BodySurface<dim> &surface)
-    {
-      Lattice<dim> result = surface.patch.grid().lattice();
-      if (surface.patch.basis_of(surface.body) == BasisKind::spline)
-        for (int d = 0; d < dim; ++d)
-          {
-            result.h[d] *= 0.5;
-            result.n_cells[d] *= 2;
-          }
-      return result;
-    }
-
     /** Whether no line of a lattice cuts a facet. */
     template <int dim>
     bool
@@ -105,10 +89,11 @@ namespace kedge
                  const dealii::Tensor<1, dim>              &inward,
                  const unsigned int                         facet)
   {
-    const Lattice<dim> lattice = lattice_of_polynomials(surface);
-    constexpr double   depth   = 1e-6;          // of a cell: which one the body lies in
-    const double       length  = inward.norm(); // 0 of a facet without area
-    const auto         to_inside =
+    const Lattice<dim> lattice =
+      lattice_of_polynomials(surface.patch.grid().lattice(), surface.patch.basis_of(surface.body));
+    constexpr double depth  = 1e-6;          // of a cell: which one the body lies in
+    const double     length = inward.norm(); // 0 of a facet without area
+    const auto       to_inside =
       (length > 0. ? depth * lattice.smallest_cell_size() / length : 0.) * inward;
     const auto add_to = [&](const std::array<dealii::Point<dim>, dim> &of_piece,
                             const double                               part,

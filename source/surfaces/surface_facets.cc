@@ -205,6 +205,8 @@ namespace kedge
   SurfaceFacets<dim>::candidates_on(const Chosen &here, const Lattice<dim> &lattice)
   {
     std::vector<Candidate> result;
+    const Lattice<dim>     polynomials =
+      lattice_of_polynomials(lattice, here.surface->patch.basis_of(here.surface->body));
     for (const Part &part : here.parts)
       {
         if (here.surface->mesh().has_left(part.facet))
@@ -212,7 +214,7 @@ namespace kedge
         const auto corners = here.surface->mesh().corners(part.facet);
         const auto start   = here.surface->corners_at_start(part.facet);
         const auto area = area_vector<dim>(corners), area_at_start = area_vector<dim>(start);
-        for (const auto &piece : cut_to_cells<dim>(lattice, corners, part.covered))
+        for (const auto &piece : cut_to_cells<dim>(polynomials, corners, part.covered))
           {
             const auto   cell     = lattice.cell_of(place_below<dim>(lattice, corners, piece));
             const double fraction = piece.fraction();

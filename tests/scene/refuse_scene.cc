@@ -252,6 +252,9 @@ TEST(SceneRead, SettingsWithoutEffectAreSaid)
   expect_parts(message_of(full_scene,
                           {"Bodies/beam/Basis = spline", "Stabilisation/Method = ghost"}),
                {"Stabilisation/Method = ghost", "splines choose aggregation or none"});
+  expect_parts(message_of(full_scene,
+                          {"Bodies/beam/Basis = spline", "Stabilisation/Method = none"}),
+               {"Stabilisation/Method = none", "With splines and inertia it must be aggregation"});
   expect_parts(lines({"Stabilisation/Ghost mass factor = 7", "Stabilisation/Method = none"}),
                {"Ghost mass factor = 7 has no effect but with Stabilisation/Method = ghost"});
   expect_parts(lines({"Materials/spare/Density = 1",

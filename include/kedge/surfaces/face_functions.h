@@ -31,6 +31,21 @@ namespace kedge
                     const double (&offset)[dim],
                     const double (&area)[dim]);
 
+  /** The lattice between whose lines a body's functions are polynomials: splines have kinks in the
+   * middle of the grid's cells. */
+  template <int dim>
+  inline Lattice<dim>
+  lattice_of_polynomials(const Lattice<dim> &grid, const BasisKind basis)
+  {
+    Lattice<dim> result = grid;
+    for (int d = 0; d < dim && basis == BasisKind::spline; ++d)
+      {
+        result.h[d] *= 0.5;
+        result.n_cells[d] *= 2;
+      }
+    return result;
+  }
+
   /**
    * The functions of the grid itself in a cell, at a place @p x in it or, continued, beyond it:
    * with their slopes. Of the quadratic basis those of the element that the cell belongs to, of
