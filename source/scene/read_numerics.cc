@@ -1,6 +1,5 @@
 #include <kedge/scene/read_numerics.h>
 #include <kedge/scene/values.h>
-#include <kedge/time_integration/scheme.h>
 
 #include <algorithm>
 #include <map>
@@ -142,6 +141,8 @@ namespace kedge
   {
     const SectionReader section(reader, {"Stabilisation"});
     const bool          has_splines = bases.count(BasisKind::spline) > 0;
+    const bool          at_rest =
+      time.scheme == SchemeKind::quasi_static || time.scheme == SchemeKind::clc_quasi_static;
     if ((bases.count(BasisKind::quadratic) > 0 || has_splines) &&
         method == StabilisationKind::ghost)
       throw section.error(
@@ -149,7 +150,7 @@ namespace kedge
         "The ghost penalty is made for linear elements and reaches no node beyond "
         "them; with the quadratic basis and with splines choose aggregation or "
         "none.");
-    if (has_splines && Scheme(time).dynamic && method == StabilisationKind::none)
+    if (has_splines && !at_rest && method == StabilisationKind::none)
       throw section.error(
         "Method",
         "With splines and inertia it must be aggregation: the outermost nodes weigh "
