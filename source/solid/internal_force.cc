@@ -2,6 +2,28 @@
 
 namespace kedge
 {
+  namespace
+  {
+    template <int dim>
+    internal::BatchContext<dim>
+    context_of(const Patch<dim>                      &patch,
+               const std::vector<double>             &displacement,
+               const typename StepPoints<dim>::Batch &batch,
+               const double                           alpha,
+               const GroupDilatation                 &dilatation,
+               const std::vector<double>             &viscous_moduli)
+    {
+      return {patch,
+              displacement,
+              batch,
+              alpha,
+              patch.points.is_grouped(batch) ? &dilatation : nullptr,
+              viscous_moduli.empty() ? 0. : viscous_moduli[batch.body]};
+    }
+  } // namespace
+
+
+
   template <int dim>
   InternalForce<dim>::InternalForce(const std::vector<Material> &material_of_body,
                                     const StressRule             rule,
@@ -38,13 +60,8 @@ namespace kedge
       return status;
     for (const auto &batch : patch.points.batches)
       {
-        const internal::BatchContext<dim> context{
-          patch,
-          displacement,
-          batch,
-          fraction,
-          patch.points.is_grouped(batch) ? &dilatation : nullptr,
-          viscous_moduli.empty() ? 0. : viscous_moduli[batch.body]};
+        const auto context =
+          context_of(patch, displacement, batch, fraction, dilatation, viscous_moduli);
         const internal::BatchLaw<dim> law(context, materials[batch.body], stress_rule, false);
         dispatch_pattern<dim>(batch.pattern,
                               internal::ForceKernel<dim>{context, law, force, status});
@@ -67,13 +84,8 @@ namespace kedge
     evaluate_groups(patch, displacement, dilatation);
     for (const auto &batch : patch.points.batches)
       {
-        const internal::BatchContext<dim> context{
-          patch,
-          displacement,
-          batch,
-          fraction,
-          patch.points.is_grouped(batch) ? &dilatation : nullptr,
-          viscous_moduli.empty() ? 0. : viscous_moduli[batch.body]};
+        const auto context =
+          context_of(patch, displacement, batch, fraction, dilatation, viscous_moduli);
         const internal::BatchLaw<dim> law(context, materials[batch.body], stress_rule, true);
         dispatch_pattern<dim>(batch.pattern,
                               internal::StiffnessKernel<dim>{context, law, stiffness});

@@ -1,4 +1,5 @@
 // The sums of the u-p balance over the points: slopes by differences, and what must not change.
+#include "../basis/direct.h"
 #include "../transfer/cloud.h"
 
 #include <kedge/porous/porous_force.h>
@@ -291,6 +292,55 @@ TYPED_TEST(PorousForceTest, TangentIsTheResidualsSlopeBesideADryBody)
       SCOPED_TRACE(setting.name);
       const Cloud<dim> cloud(all_bases[2], 2, 33);
       check_tangent(Problem<dim>(cloud, setting, false, 0.3));
+    }
+}
+
+// N - N^0: no constant has a share in it, and of a linear pressure it is what the point's has
+// beside the means of the cells that its domain touches, by its lengths in them
+TYPED_TEST(PorousForceTest, FluctuationsAreThoseBesideTheMeansOfCells)
+{
+  constexpr int dim = TypeParam::value;
+  for (unsigned int b = 0; b < all_bases.size(); ++b)
+    {
+      SCOPED_TRACE("basis " + std::to_string(b));
+      const Cloud<dim>          cloud(all_bases[b], 2, 31 + b);
+      const auto               &lattice = cloud.grid.lattice();
+      const std::vector<double> one(cloud.nodes.n_local(), 1.);
+      for (const double value : PorousForce<dim>::fluctuations(cloud.patch, one))
+        EXPECT_NEAR(value, 0., 1e-14); // 64 roundings of values below 1
+      for (int d = 0; d < dim; ++d)
+        {
+          std::vector<double> x(cloud.nodes.n_local());
+          for (unsigned int i = 0; i < x.size(); ++i)
+            x[i] = cloud.node_position(i)[d];
+          const auto values = PorousForce<dim>::fluctuations(cloud.patch, x);
+          for (const auto &batch : cloud.step.batches)
+            for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
+              {
+                const double at   = cloud.step.location[slot][d];
+                const auto   low  = lattice.cell_of(cloud.step.location[slot]);
+                const double half = all_bases[b][batch.body] == BasisKind::linear
+                                      ? 0.
+                                      : effective_half_length(
+                                          lattice,
+                                          at,
+                                          cloud.records[cloud.step.id[slot]].state.half_lengths[d],
+                                          d);
+                double       mean = 0.;
+                for (int cell = low[d] - 1; cell <= low[d] + 1; ++cell)
+                  {
+                    const double begin = lattice.origin[d] + cell * lattice.h[d];
+                    const double part =
+                      std::min(at + half, begin + lattice.h[d]) - std::max(at - half, begin);
+                    const double share = half > 0.        ? std::max(0., part) / (2. * half)
+                                         : cell == low[d] ? 1.
+                                                          : 0.;
+                    mean += share * (begin + 0.5 * lattice.h[d]);
+                  }
+                // domains that pass a line or a kink by 1e-4 h at most are shortened to it
+                EXPECT_NEAR(values[slot], at - mean, 1e-3 * lattice.h[d]);
+              }
+        }
     }
 }
 
