@@ -5,8 +5,8 @@
 # --- The scenes of prm/, in the size in which they ship or smaller ------------
 kedge_add_scene_test(scene.column_quasi_static prm/column_quasi_static.prm
   COMPARE_RANKS 1e-7)
-# averaged B-splines: the errors of an independent program, numpy with scipy's B-splines folded at the base
-# (2.17e-4 and 1.36e-4 of three digits); the scene's tolerance is 1.0005 times what is set here
+# averaged B-splines: at most the errors of benchmarks/references/column_splines.py (2.170e-4, 1.363e-4 of four digits),
+# an independent program; the scene's tolerance is 1.0005 times what is set here
 kedge_add_scene_test(scene.column_quasi_static.spline prm/column_quasi_static.prm
   SET "Bodies/column/Basis = spline" "Constants/ample_soft = 2.174e-4" COMPARE_RANKS 1e-7)
 kedge_add_scene_test(scene.column_quasi_static.spline_stiff prm/column_quasi_static.prm
