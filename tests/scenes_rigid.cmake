@@ -40,6 +40,10 @@ foreach(alpha 0 1)
   kedge_add_scene_test(scene.strip_rigid.alpha_${alpha} prm/strip_rigid.prm
     SET "Constants/alpha = ${alpha}")
 endforeach()
+foreach(alpha 0 1)
+  kedge_add_scene_test(scene.circle_rigid.alpha_${alpha} prm/circle_rigid.prm
+    SET "Constants/alpha = ${alpha}")
+endforeach()
 # contacts on facets that are divided are handed on
 kedge_add_scene_test(scene.flattened_by_tool tests/scenes/flattened_by_tool.prm)
 kedge_add_scene_test(scene.flattened_by_tool.in_motion tests/scenes/flattened_by_tool.prm
