@@ -44,6 +44,11 @@ foreach(alpha 0 1)
   kedge_add_scene_test(scene.circle_rigid.alpha_${alpha} prm/circle_rigid.prm
     SET "Constants/alpha = ${alpha}")
 endforeach()
+foreach(alpha 0 0.5 1)
+  kedge_add_scene_test(scene.t_bar.alpha_${alpha} prm/t_bar.prm SET "Constants/alpha = ${alpha}")
+endforeach()
+kedge_add_scene_test(scene.anchor_plate prm/anchor_plate.prm)
+kedge_add_scene_test(scene.anchor_plate.along prm/anchor_plate.prm SET "Constants/along = 1")
 # contacts on facets that are divided are handed on
 kedge_add_scene_test(scene.flattened_by_tool tests/scenes/flattened_by_tool.prm)
 kedge_add_scene_test(scene.flattened_by_tool.in_motion tests/scenes/flattened_by_tool.prm
