@@ -36,6 +36,9 @@ kedge_add_scene_test(scene.cavity_cylinder.load_control prm/cavity_cylinder.prm
     "Constants/R = a + h/8" "Load control/Direction = 1, 0"
     "Load control/Displacement = sqrt(R^2 + (ratio^2 - 1)*a^2*t) - R")
 kedge_add_scene_test(scene.cavity_sphere prm/cavity_sphere.prm TIMEOUT 200)
+kedge_add_scene_test(scene.cavity_sphere.von_mises prm/cavity_sphere.prm TIMEOUT 200
+  SET "Constants/ratio = 1.2" "Materials/clay/Model = von_mises" "Materials/clay/Undrained strength = "
+    "Materials/clay/Yield radius rho_y = 2*sqrt(2/3)*su")
 # limit loads: found as the answer, or where a run without one stops
 kedge_add_scene_test(scene.vertical_cut prm/vertical_cut.prm)
 kedge_add_scene_test(scene.vertical_cut.ranks prm/vertical_cut.prm SET "Constants/n = 4"
@@ -52,8 +55,10 @@ kedge_add_scene_test(scene.cut_softening.perfect prm/cut_softening.prm SET "Cons
   EXPECT_EXIT 2 EXPECT_STDOUT "FAIL what is left" EXPECT_STDERR "^$")
 kedge_add_scene_test(scene.slope prm/slope.prm
   SET "Constants/n = 5" "Strength reduction = 1.3")
+# by steps that find no equilibrium or by one that moves it too far: round-off decides which comes first
 kedge_add_scene_test(scene.slope.fails prm/slope.prm SET "Constants/n = 5"
-  "Strength reduction = 1.7" EXPECT_EXIT 2 EXPECT_STDOUT "a limit load, no equilibrium beyond it"
+  "Strength reduction = 1.7" EXPECT_EXIT 2
+  EXPECT_STDOUT "a limit load(, no equilibrium beyond it)?: the largest displacement.*still growing"
   EXPECT_STDERR "^$")
 # beyond the yield surface: returned, and said so
 kedge_add_scene_test(scene.initial_stress_returned prm/layer_at_rest.prm

@@ -15,7 +15,11 @@ namespace kedge
                 "1e-11",
                 allow.number(NumberRange::positive()),
                 "Of |r_k| |du_k| / (|r_0| |du_1|), residual times correction [-]."},
-               {"Iterations", "20", allow.whole_number(1), "At most; then the step is cut [-]."},
+               {"Iterations",
+                "20",
+                allow.whole_number(1),
+                "Then the step is cut, unless the residual still falls: up to three times as "
+                "many [-]."},
                {"Log",
                 "false",
                 allow.truth(),

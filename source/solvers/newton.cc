@@ -1,5 +1,6 @@
 #include <kedge/solvers/newton.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -39,6 +40,12 @@ namespace kedge
 
     /** Linear systems are solved to this relative residual at least. */
     constexpr double loosest_linear_tolerance = 1e-3;
+
+    /** A residual that has halved within so many corrections falls. */
+    constexpr unsigned int patience = 4;
+
+    /** A residual that falls is given so many times the limit of iterations. */
+    constexpr unsigned int longest_extension = 3;
 
     constexpr double no_bound = std::numeric_limits<double>::infinity();
 
@@ -163,6 +170,26 @@ namespace kedge
       return evaluation;
     }
 
+    /** Whether the residual has halved within the last corrections. */
+    bool
+    falls(const NewtonReport &report)
+    {
+      const auto &norms = report.residual_norms;
+      if (norms.size() <= patience)
+        return false;
+      const auto recent = norms.end() - patience;
+      return *std::min_element(recent, norms.end()) <
+             0.5 * *std::min_element(norms.begin(), recent);
+    }
+
+    /** Whether another correction may be made. */
+    bool
+    may_go_on(const NewtonReport &report, const unsigned int limit)
+    {
+      return report.iterations < limit ||
+             (report.iterations < longest_extension * limit && falls(report));
+    }
+
     /** Corrects the unknowns once, and evaluates there; false, with the cause, if that fails. */
     bool
     correct(NewtonProblem &problem, NewtonProblem::Evaluation &evaluation, NewtonReport &report)
@@ -209,7 +236,7 @@ namespace kedge
     };
 
     unsigned int n_added = 0;
-    while (report.iterations < parameters.max_iterations)
+    while (may_go_on(report, parameters.max_iterations))
       {
         report.converged = false; // an added iteration has to hold as well
         if (!correct(problem, evaluation, report))
@@ -239,8 +266,8 @@ namespace kedge
     report.converged = report.converged || evaluation.residual_norm <= accurate * evaluation.scale;
     if (report.converged)
       return report;
-    report.cause = "no convergence in " + std::to_string(parameters.max_iterations) +
-                   " Newton iterations" + residual_trail(report);
+    report.cause = "no convergence in " + std::to_string(report.iterations) + " Newton iterations" +
+                   residual_trail(report);
     return report;
   }
 } // namespace kedge

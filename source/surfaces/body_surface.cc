@@ -4,6 +4,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -50,6 +52,71 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** The well-filled cell nearest to a place, and the fullest one around. */
+    template <int dim>
+    struct Surroundings
+    {
+      LatticeIndex<dim> nearest, fullest;
+      double            least = std::numeric_limits<double>::max(); ///< distance of the nearest
+      double            most  = 0.;                                 ///< filling of the fullest
+    };
+
+    /** Looks at the cells around @p x, up to @p radius away. */
+    template <int dim>
+    Surroundings<dim>
+    look_around(const Patch<dim>          &patch,
+                const dealii::Point<dim>  &x,
+                const std::vector<double> &filling,
+                const int                  radius)
+    {
+      const auto             &lattice = patch.grid().lattice();
+      const auto             &window  = patch.window();
+      const LatticeIndex<dim> here    = lattice.cell_of(x);
+      Surroundings<dim>       result;
+      result.nearest = result.fullest = here;
+      const int    width              = 2 * radius + 1;
+      unsigned int n                  = 1;
+      for (int d = 0; d < dim; ++d)
+        n *= width;
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          LatticeIndex<dim> cell;
+          unsigned int      rest = k;
+          for (int d = 0; d < dim; ++d, rest /= width)
+            cell[d] = here[d] + static_cast<int>(rest % width) - radius;
+          if (!window.contains_cell(cell))
+            continue;
+          const double full = filling[window.cell_number(cell)];
+          if (full > result.most)
+            {
+              result.most    = full;
+              result.fullest = cell;
+            }
+          if (full < BodySurface<dim>::well_filled * (1. - 1e-9))
+            continue;
+          double outside = 0., from_centre = 0.; // squares of distances, in cells
+          for (int d = 0; d < dim; ++d)
+            {
+              const double s = lattice.scaled(x[d], d) - cell[d];
+              outside += std::pow(std::max({-s, 0., s - 1.}), 2);
+              from_centre += (s - 0.5) * (s - 0.5);
+            }
+          // of cells that touch in x the one whose centre is nearest
+          const double distance = std::sqrt(outside) + 1e-3 * std::sqrt(from_centre);
+          if (distance < result.least)
+            {
+              result.least   = distance;
+              result.nearest = cell;
+            }
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   template <int dim>
   LatticeIndex<dim>
   BodySurface<dim>::root_cell(const dealii::Point<dim>  &x,
@@ -59,44 +126,18 @@ namespace kedge
     const auto             &lattice = patch.grid().lattice();
     const auto             &window  = patch.window();
     const LatticeIndex<dim> here    = lattice.cell_of(x);
-    LatticeIndex<dim>       nearest = here, fullest = here;
-    double                  least = std::numeric_limits<double>::max(), most = 0.;
-    const int               width = 2 * radius + 1;
-    unsigned int            n     = 1;
+    double                  to_next = 0.5; // cell beside this one, in cells
     for (int d = 0; d < dim; ++d)
-      n *= width;
-    for (unsigned int k = 0; k < n; ++k)
       {
-        LatticeIndex<dim> cell;
-        unsigned int      rest = k;
-        for (int d = 0; d < dim; ++d, rest /= width)
-          cell[d] = here[d] + static_cast<int>(rest % width) - radius;
-        if (!window.contains_cell(cell))
-          continue;
-        const double full = filling[window.cell_number(cell)];
-        if (full > most)
-          {
-            most    = full;
-            fullest = cell;
-          }
-        if (full < well_filled * (1. - 1e-9))
-          continue;
-        double outside = 0., from_centre = 0.; // squares of distances, in cells
-        for (int d = 0; d < dim; ++d)
-          {
-            const double s = lattice.scaled(x[d], d) - cell[d];
-            outside += std::pow(std::max({-s, 0., s - 1.}), 2);
-            from_centre += (s - 0.5) * (s - 0.5);
-          }
-        // of cells that touch in x the one whose centre is nearest
-        const double distance = std::sqrt(outside) + 1e-3 * std::sqrt(from_centre);
-        if (distance < least)
-          {
-            least   = distance;
-            nearest = cell;
-          }
+        const double s = lattice.scaled(x[d], d) - here[d];
+        to_next        = std::min({to_next, s, 1. - s});
       }
-    if (most == 0.) // far from all material: what is torn off follows the nearest cell there is
+    for (int near = 0; near < radius; ++near)
+      if (const auto around = look_around(patch, x, filling, near); around.least < to_next + near)
+        return around.nearest; // all other cells are farther away
+    const auto around = look_around(patch, x, filling, radius);
+    if (around.most ==
+        0.) // far from all material: what is torn off follows the nearest cell there is
       {
         const int widest = *std::max_element(window.n_cells.begin(), window.n_cells.end());
         if (radius > 2 * widest)
@@ -110,7 +151,7 @@ namespace kedge
           }
         return root_cell(x, filling, 2 * radius);
       }
-    return least < std::numeric_limits<double>::max() ? nearest : fullest;
+    return around.least < std::numeric_limits<double>::max() ? around.nearest : around.fullest;
   }
 
 

@@ -368,3 +368,38 @@ TEST(SolversNewton, BreaksACycleWithShorterCorrections)
   // they are left alone at first: the residual may grow on the way to a solution
   EXPECT_GE(report.residual_norms[2], 0.99 * report.residual_norms[1]);
 }
+
+// f = x^3: Newton's method shortens x by 2/3 and the residual by 8/27, so that the criterion,
+// (8/27)^k (2/3)^(k-1) < 1e-11, holds at k = 16 first. With a tangent that is ten times too stiff
+// the residual of f = x falls by 0.9, in four corrections by 0.66: that is not waited for.
+TEST(SolversNewton, GoesOnBeyondItsLimitWhileTheResidualFalls)
+{
+  for (const unsigned int limit : {20u, 10u, 6u, 5u, 3u})
+    {
+      Scalar cubic(
+        [](double x) {
+          return x * x * x;
+        },
+        [](double x) {
+          return 3. * x * x;
+        },
+        1.);
+      cubic.scale = 1e4; // 1e-12 of it is more than what is left
+      NewtonParameters parameters;
+      parameters.max_iterations = limit;
+      const NewtonReport report = solve_newton(cubic, parameters);
+      EXPECT_EQ(report.converged, limit >= 6) << limit;
+      EXPECT_EQ(report.iterations, limit >= 6 ? 16u : (limit == 5 ? 15u : 3u)) << limit;
+    }
+  Scalar slow(
+    [](double x) {
+      return x;
+    },
+    [](double) {
+      return 10.;
+    },
+    1.);
+  const NewtonReport report = solve_newton(slow, {});
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.iterations, NewtonParameters().max_iterations);
+}

@@ -77,7 +77,8 @@ namespace kedge
    * one too. Iterative linear solvers may leave a relative residual of 1e-3 in the
    * first iteration and then of a tenth of (|r_k|/|r_k-1|)^2, which keeps the
    * order (Eisenstat and Walker 1996). From the fifth correction on, one that
-   * stagnates is halved until the residual falls.
+   * stagnates is halved until the residual falls. At the limit of iterations a residual that still
+   * falls (halved within the last four) is given more of them, up to three times the limit.
    */
   NewtonReport
   solve_newton(NewtonProblem &problem, const NewtonParameters &parameters);
