@@ -55,7 +55,7 @@ namespace kedge
   {
     if (n_updates == most_updates)
       return false;
-    const Lattice<dim> &lattice = passes.front().sampled.surface.patch.grid().lattice();
+    const Lattice<dim> &lattice = passes.front().sampled.surface.patch.grid().levels().finest();
     if (!kedge::update_multipliers<dim>(passes,
                                         lattice,
                                         [](SurfaceSamples<dim> &half, CellMultipliers<dim> &cells) {
@@ -94,7 +94,7 @@ namespace kedge
     if (!at_rest || n_updates == most_updates)
       return false;
     move(trial);
-    const Lattice<dim> &lattice = sides.front().surface->patch.grid().lattice();
+    const Lattice<dim> &lattice = sides.front().surface->patch.grid().levels().finest();
     if (!update_multipliers<dim>(sides, lattice, [&](Side &side, CellMultipliers<dim> &cells) {
           for (Sample &sample : side.samples)
             cells.add(sample.place + alpha * sample.D,

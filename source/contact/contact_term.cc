@@ -350,7 +350,7 @@ namespace kedge
                places,
                released,
                trial.times.dt,
-               surfaces.front()->surface.patch.grid().lattice());
+               surfaces.front()->surface.patch.grid().levels().finest());
   }
 
 

@@ -56,7 +56,7 @@ namespace kedge
   {
     if (n_updates == most_updates)
       return false;
-    const Lattice<dim> &lattice  = sides.front()->body.surface->patch.grid().lattice();
+    const Lattice<dim> &lattice  = sides.front()->body.surface->patch.grid().levels().finest();
     const auto          add_side = [](auto &side, CellMultipliers<dim> &cells) {
       for (Sample &sample : side->samples)
         cells.add(side->place_at_balance(sample),

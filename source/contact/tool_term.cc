@@ -354,7 +354,7 @@ namespace kedge
                places,
                released,
                trial.times.dt,
-               sides.front()->body.surface->patch.grid().lattice());
+               sides.front()->body.surface->patch.grid().levels().finest());
   }
 
 

@@ -366,7 +366,7 @@ namespace kedge
                places,
                released,
                trial.times.dt,
-               sides.front().surface->patch.grid().lattice());
+               sides.front().surface->patch.grid().levels().finest());
     if (!motion.moves())
       return;
     dealii::Tensor<1, dim> force;

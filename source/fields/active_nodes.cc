@@ -21,14 +21,14 @@ namespace kedge
      */
     template <int dim>
     void
-    sort_by_extent(const LatticeWindow<dim> &window, std::vector<unsigned int> &nodes)
+    sort_by_extent(const GridLevels<dim> &levels, std::vector<unsigned int> &nodes)
     {
       if (nodes.empty())
         return;
-      LatticeIndex<dim> low = window.node_index(nodes[0]), high = low;
+      LatticeIndex<dim> low = levels.finest_index(nodes[0]), high = low;
       for (const unsigned int node : nodes)
         {
-          const auto index = window.node_index(node);
+          const auto index = levels.finest_index(node);
           for (int d = 0; d < dim; ++d)
             {
               low[d]  = std::min(low[d], index[d]);
@@ -40,7 +40,7 @@ namespace kedge
       std::stable_sort(order.begin(), order.end(), [&](const int a, const int b) {
         return high[a] - low[a] < high[b] - low[b];
       });
-      if (std::is_sorted(order.begin(), order.end()))
+      if (levels.size() == 1 && std::is_sorted(order.begin(), order.end()))
         {
           std::sort(nodes.begin(), nodes.end());
           return;
@@ -50,7 +50,7 @@ namespace kedge
       keyed.reserve(nodes.size());
       for (const unsigned int node : nodes)
         {
-          const auto    index = window.node_index(node);
+          const auto    index = levels.finest_index(node);
           std::uint64_t key   = 0;
           for (int k = dim - 1; k >= 0; --k)
             key = key * (high[order[k]] - low[order[k]] + 1) + (index[order[k]] - low[order[k]]);
@@ -87,7 +87,7 @@ namespace kedge
     const unsigned int              n_owned_before = n_owned_;
     if (n_ranks > 1)
       find_neighbours(grid, ghosts, owned);
-    sort_by_extent(grid.window(), owned);
+    sort_by_extent(grid.levels(), owned);
 
     n_owned_     = owned.size();
     window_nodes = std::move(owned);

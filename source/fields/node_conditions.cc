@@ -92,19 +92,22 @@ namespace kedge
     pressure_condition_of.assign(any_pressure ? nodes.n_local() : 0, -1);
     for (unsigned int c = 0; c < conditions.size(); ++c)
       for (unsigned int i = 0; i < nodes.n_local(); ++i)
-        if (applies(conditions[c], grid.lattice(), grid.window().node_index(nodes.window_node(i))))
-          {
-            for (int d = 0; d < dim; ++d)
-              if (conditions[c].motions[d].kind != ConditionKind::free)
-                condition_of[std::size_t(i) * dim + d] = c;
-            if (conditions[c].pressure)
-              pressure_condition_of[i] = c;
-          }
+        {
+          const LevelNode<dim> node = grid.levels().node(nodes.window_node(i));
+          if (!applies(conditions[c], grid.levels().lattice(node.level), node.index))
+            continue;
+
+          for (int d = 0; d < dim; ++d)
+            if (conditions[c].motions[d].kind != ConditionKind::free)
+              condition_of[std::size_t(i) * dim + d] = c;
+          if (conditions[c].pressure)
+            pressure_condition_of[i] = c;
+        }
     if (needs_place)
       {
         place.resize(nodes.n_local());
         for (unsigned int i = 0; i < nodes.n_local(); ++i)
-          place[i] = grid.lattice().node_position(grid.window().node_index(nodes.window_node(i)));
+          place[i] = grid.node_position(nodes.window_node(i));
       }
     return condition_of != before || pressure_condition_of != pressure_before;
   }

@@ -1,3 +1,4 @@
+#include <kedge/fields/node_filling.h>
 #include <kedge/fields/node_ties.h>
 
 namespace kedge
@@ -6,86 +7,6 @@ namespace kedge
   {
     /** Cells searched for a root, as distance in cells from the node. */
     constexpr int nearest_ring = 2, farthest_ring = 4;
-
-    /**
-     * Volume of material at each node of the window, in cells; more than zero at
-     * every node that any rank reaches (collective).
-     */
-    template <int dim>
-    std::vector<double>
-    nodal_filling(const BackgroundGrid<dim>        &grid,
-                  const StepPoints<dim>            &points,
-                  const std::vector<unsigned char> &reached)
-    {
-      double cell_volume = 1.;
-      for (int d = 0; d < dim; ++d)
-        cell_volume *= grid.lattice().h[d];
-      std::vector<double> filling(grid.window().n_nodes_total(), 0.);
-      for (unsigned int node = 0; node < reached.size(); ++node)
-        if (reached[node])
-          filling[node] = std::numeric_limits<double>::min();
-      const auto strides = grid.window().node_strides();
-      for (unsigned int slot = 0; slot < points.size(); ++slot)
-        {
-          const Stencil<dim> &s      = points.stencil[slot];
-          const double        volume = points.volume[slot] * points.determinant[slot] / cell_volume;
-          for (int k = 0; k < (dim == 3 ? stencil_width(s.pattern, 2) : 1); ++k)
-            for (int j = 0; j < stencil_width(s.pattern, 1); ++j)
-              {
-                const double yz = volume * s.value[1][j] * (dim == 3 ? s.value[dim - 1][k] : 1.);
-                double      *row =
-                  &filling[s.first_node + j * strides[1] + (dim == 3 ? k * strides[dim - 1] : 0)];
-                for (int i = 0; i < stencil_width(s.pattern, 0); ++i)
-                  row[i] += yz * s.value[0][i];
-              }
-        }
-      if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-        MPI_Allreduce(MPI_IN_PLACE,
-                      filling.data(),
-                      static_cast<int>(filling.size()),
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      grid.communicator());
-      return filling;
-    }
-
-    /**
-     * Which bodies reach each node of the window: bit b modulo 64 for body b;
-     * empty if there is only one body (collective).
-     */
-    template <int dim>
-    std::vector<std::uint64_t>
-    bodies_at_nodes(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points)
-    {
-      unsigned int n_bodies = 0;
-      for (const auto &batch : points.batches)
-        n_bodies = std::max(n_bodies, batch.body + 1);
-      const bool many_ranks = dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1;
-      if (many_ranks)
-        n_bodies = dealii::Utilities::MPI::max(n_bodies, grid.communicator());
-      if (n_bodies < 2)
-        return {};
-      std::vector<std::uint64_t> bodies(grid.window().n_nodes_total(), 0);
-      const auto                 strides = grid.window().node_strides();
-      for (const auto &batch : points.batches)
-        for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
-          for (int k = 0; k < (dim == 3 ? stencil_width(batch.pattern, 2) : 1); ++k)
-            for (int j = 0; j < stencil_width(batch.pattern, 1); ++j)
-              {
-                std::uint64_t *row = &bodies[points.stencil[slot].first_node + j * strides[1] +
-                                             (dim == 3 ? k * strides[dim - 1] : 0)];
-                for (int i = 0; i < stencil_width(batch.pattern, 0); ++i)
-                  row[i] |= std::uint64_t(1) << (batch.body % 64);
-              }
-      if (many_ranks)
-        MPI_Allreduce(MPI_IN_PLACE,
-                      bodies.data(),
-                      static_cast<int>(bodies.size()),
-                      MPI_UINT64_T,
-                      MPI_BOR,
-                      grid.communicator());
-      return bodies;
-    }
 
     /** Calls visit(cell) for all cells, @p edge intervals wide, within @p ring cells of a node. */
     template <int dim, typename Visit>
@@ -323,6 +244,46 @@ namespace kedge
 
 
 
+  /** Ties hanging nodes to their roots, or to what these are tied to. */
+  template <int dim>
+  void
+  NodeTies<dim>::tie_hanging(const std::vector<NodeSum> &hanging, const unsigned int components)
+  {
+    if (hanging.empty())
+      return;
+    std::map<unsigned int, std::size_t> tie_of_root;
+    for (std::size_t i = 0; i < window_ties.size(); ++i)
+      tie_of_root.emplace(window_ties[i].node, i);
+    for (const NodeSum &sum : hanging)
+      {
+        std::map<unsigned int, double> weights;
+        for (unsigned int k = 0; k < sum.roots.size(); ++k)
+          {
+            const auto tied = tie_of_root.find(sum.roots[k]);
+            if (tied == tie_of_root.end())
+              {
+                weights[sum.roots[k]] += sum.weights[k];
+                continue;
+              }
+            const Tie &tie = window_ties[tied->second];
+            for (unsigned int r = 0; r < tie.roots.size(); ++r)
+              weights[tie.roots[r]] += sum.weights[k] * tie.weights[r];
+          }
+        Tie tie{sum.node, {}, {}, components, false, true};
+        for (const auto &[root, weight] : weights)
+          {
+            tie.roots.push_back(root);
+            tie.weights.push_back(weight);
+          }
+        window_ties.push_back(std::move(tie));
+      }
+    std::sort(window_ties.begin(), window_ties.end(), [](const Tie &a, const Tie &b) {
+      return a.node < b.node;
+    });
+  }
+
+
+
   template <int dim>
   void
   NodeTies<dim>::find(const BackgroundGrid<dim>  &grid,
@@ -335,20 +296,26 @@ namespace kedge
     const std::vector<bool> moves_before = std::move(moves);
     window_ties.clear();
     moves.clear();
+    const std::vector<NodeSum> hanging    = hanging_nodes(grid.levels(), reached);
+    const unsigned int         components = (1u << (coarse_pressure ? dim : dim + 1)) - 1;
+    for (const NodeSum &sum : hanging)
+      for (const unsigned int root : sum.roots)
+        reached[root] = 1;
     if (threshold > 0. || coarse_pressure)
       {
-        Filling    filling{nodal_filling(grid, points, reached),
+        Filling filling{nodal_filling(grid, points, reached),
                         bodies_at_nodes(grid, points),
                         threshold,
                         1,
                         {}};
+        give_to_roots(grid.levels(), hanging, filling.volume, filling.bodies);
         const auto is_low = [&](const double volume) {
           return volume > 0. && volume < threshold;
         };
         if (std::any_of(filling.volume.begin(), filling.volume.end(), is_low))
           {
-            filling.pieces = find_pieces(grid, points);
-            tie_badly_filled(grid, filling, reached, (1u << (coarse_pressure ? dim : dim + 1)) - 1);
+            filling.pieces = find_pieces(grid, points, hanging);
+            tie_badly_filled(grid, filling, reached, components);
           }
         if (coarse_pressure)
           {
@@ -357,10 +324,11 @@ namespace kedge
             for (unsigned int node = 0; node < reached.size(); ++node)
               moves[node] = filling.volume[node] != 0.;
           }
-        for (const Tie &tie : window_ties)
-          for (const unsigned int root : tie.roots)
-            reached[root] = 1;
       }
+    tie_hanging(hanging, components);
+    for (const Tie &tie : window_ties)
+      for (const unsigned int root : tie.roots)
+        reached[root] = 1;
     changed_ = window_ties.size() != ties_before.size() || moves != moves_before;
     for (unsigned int i = 0; i < window_ties.size() && !changed_; ++i)
       changed_ = window_ties[i].node != ties_before[i].node ||
@@ -433,9 +401,9 @@ namespace kedge
         if (((tie.components >> dim) & 1u) != 0)
           tie_numbers[2 * std::size_t(tie.node) + 1] = static_cast<int>(i);
         for (int d = 0; d < dim; ++d)
-          if (conditions.prescribed(tie.node, d))
+          if (!tie.hangs && conditions.prescribed(tie.node, d))
             tie.components &= ~(1u << d);
-        if (!tie.interpolates && conditions.pressure_prescribed(tie.node))
+        if (!tie.interpolates && !tie.hangs && conditions.pressure_prescribed(tie.node))
           tie.components &= ~(1u << dim);
       }
     for (Tie &tie : local_ties)

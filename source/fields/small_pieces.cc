@@ -258,7 +258,9 @@ namespace kedge
 
   template <int dim>
   Pieces
-  find_pieces(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points)
+  find_pieces(const BackgroundGrid<dim>  &grid,
+              const StepPoints<dim>      &points,
+              const std::vector<NodeSum> &hanging)
   {
     const auto                 strides = grid.window().node_strides();
     const unsigned int         n       = grid.window().n_nodes_total();
@@ -273,6 +275,12 @@ namespace kedge
           sets.join(first, node);
         });
       }
+    for (const NodeSum &sum : hanging)
+      for (const unsigned int root : sum.roots)
+        {
+          reached[root] = 1;
+          sets.join(sum.node, root);
+        }
     const auto sum_up = [&](auto &values, const MPI_Datatype type, const MPI_Op operation) {
       if (dealii::Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
         MPI_Allreduce(MPI_IN_PLACE,
@@ -315,14 +323,16 @@ namespace kedge
     return sums;
   }
 
-#define KEDGE_INSTANTIATE(dim)                                                                     \
-  template Pieces               find_pieces(const BackgroundGrid<dim> &, const StepPoints<dim> &); \
-  template std::vector<NodeSum> tie_small_pieces(const LatticeWindow<dim> &,                       \
-                                                 const std::vector<double> &,                      \
-                                                 const Pieces &,                                   \
-                                                 const std::vector<bool> &,                        \
-                                                 const std::vector<unsigned int> &,                \
-                                                 const int,                                        \
+#define KEDGE_INSTANTIATE(dim)                                                      \
+  template Pieces               find_pieces(const BackgroundGrid<dim> &,            \
+                                            const StepPoints<dim> &,                \
+                                            const std::vector<NodeSum> &);          \
+  template std::vector<NodeSum> tie_small_pieces(const LatticeWindow<dim> &,        \
+                                                 const std::vector<double> &,       \
+                                                 const Pieces &,                    \
+                                                 const std::vector<bool> &,         \
+                                                 const std::vector<unsigned int> &, \
+                                                 const int,                         \
                                                  const int);
   KEDGE_INSTANTIATE(2)
   KEDGE_INSTANTIATE(3)

@@ -23,6 +23,23 @@ namespace kedge
         sorted[begin[key[i]]++] = i;
       order.swap(sorted);
     }
+
+    /**
+     * The level of the functions of a point: the finest of the cells that its domain touches,
+     * so that they are those of the cells wherever the domain lies in them.
+     */
+    template <int dim>
+    unsigned int
+    level_of_point(const BackgroundGrid<dim>    &grid,
+                   const BasisKind               basis,
+                   const dealii::Point<dim>     &x,
+                   const dealii::Tensor<1, dim> &half_lengths)
+    {
+      return grid.levels().level_at(x,
+                                    basis == BasisKind::linear ? dealii::Tensor<1, dim>()
+                                                               : half_lengths,
+                                    gimp_smallest_overlap);
+    }
   } // namespace
 
 
@@ -187,9 +204,13 @@ namespace kedge
         return;
       number.push_back(i);
       body.push_back(of_body);
-      cell.push_back(grid.window().cell_number(grid.lattice().cell_of(x)));
+      const unsigned int level =
+        level_of_point(grid, basis_of_body[of_body], x, state.half_lengths);
+      const Lattice<dim>       &lattice   = grid.levels().lattice(level);
+      const LatticeWindow<dim> &numbering = grid.levels().numbering(level);
+      cell.push_back(numbering.cell_number(lattice.cell_of(x)));
       stencils.push_back(
-        make_stencil(basis_of_body[of_body], grid.lattice(), grid.window(), x, state.half_lengths));
+        make_stencil(basis_of_body[of_body], lattice, numbering, x, state.half_lengths));
     });
     find_order(grid, cell, body, stencils, basis_of_body.size());
     find_groups(grid, cell, shared_volume);

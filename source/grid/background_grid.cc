@@ -20,7 +20,7 @@ namespace kedge
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters<dim> &parameters,
                                       const MPI_Comm             communicator)
-    : lattice_(parameters)
+    : levels_(Lattice<dim>(parameters))
     , communicator_(communicator)
     , element(dealii::FE_Q<dim>(1), dim)
   {}
@@ -33,24 +33,41 @@ namespace kedge
                              const std::vector<unsigned int> &weights)
   {
     ++generation_;
+    LatticeWindow<dim> window;
     for (int d = 0; d < dim; ++d)
       {
         const int spread = std::max(window_margin, cells.n_cells[d] / 8);
-        window_.low[d]   = std::max(0, cells.low[d] - spread);
-        window_.low[d] -= window_.low[d] % lattice_.node_intervals; // whole elements
-        const int end = std::min(lattice_.n_cells[d], cells.low[d] + cells.n_cells[d] + spread);
-        window_.n_cells[d] = std::max(2, end - window_.low[d]); // room for three nodes
+        window.low[d]    = std::max(0, cells.low[d] - spread);
+        window.low[d] -= window.low[d] % lattice().node_intervals; // whole elements
+        const int end = std::min(lattice().n_cells[d], cells.low[d] + cells.n_cells[d] + spread);
+        window.n_cells[d] = std::max(2, end - window.low[d]); // room for three nodes
       }
     n_refinements = 0;
-    while (window_.n_cells_total() >> (dim * n_refinements) > most_trees)
+    while (window.n_cells_total() >> (dim * n_refinements) > most_trees)
       ++n_refinements;
-    const int unit = std::max(1 << n_refinements, lattice_.node_intervals);
+    const int unit = std::max(1 << n_refinements, lattice().node_intervals);
     for (int d = 0; d < dim; ++d)
-      window_.n_cells[d] = (window_.n_cells[d] + unit - 1) / unit * unit;
+      window.n_cells[d] = (window.n_cells[d] + unit - 1) / unit * unit;
+    levels_.cover(window);
 
     create_triangulation(weights, cells);
     tabulate_cells();
     tabulate_node_owners();
+  }
+
+
+
+  template <int dim>
+  bool
+  BackgroundGrid<dim>::refine(const std::vector<unsigned char> &wanted)
+  {
+    Assert(!parallel(), dealii::ExcNotImplemented());
+    if (!levels_.refine(wanted))
+      return false;
+    ++generation_;
+    cell_owners.assign(window().n_cells_total(), 0);
+    tabulate_node_owners();
+    return true;
   }
 
 
@@ -69,12 +86,13 @@ namespace kedge
     else
       triangulation_ = std::make_unique<dealii::Triangulation<dim>>();
 
-    dealii::Point<dim>        low = lattice_.node_position(window_.low), high;
+    dealii::Point<dim>        low = lattice().node_position(coarsest().low), high;
     std::vector<unsigned int> trees(dim);
     for (int d = 0; d < dim; ++d)
       {
-        high[d]  = lattice_.origin[d] + (window_.low[d] + window_.n_cells[d]) * lattice_.h[d];
-        trees[d] = window_.n_cells[d] >> n_refinements;
+        high[d] =
+          lattice().origin[d] + (coarsest().low[d] + coarsest().n_cells[d]) * lattice().h[d];
+        trees[d] = coarsest().n_cells[d] >> n_refinements;
       }
     dealii::GridGenerator::subdivided_hyper_rectangle(*triangulation_, trees, low, high);
     if (n_refinements > 0)
@@ -97,7 +115,7 @@ namespace kedge
   {
     // an empty cell weighs 1, so that empty regions are shared out too
     const auto weight = [&](const auto &cell, const auto) -> unsigned int {
-      const LatticeIndex<dim> index = lattice_.cell_of(cell->center());
+      const LatticeIndex<dim> index = lattice().cell_of(cell->center());
       return 1u + (weighted_cells.contains_cell(index)
                      ? 1000u * weights[weighted_cells.cell_number(index)]
                      : 0u);
@@ -113,17 +131,17 @@ namespace kedge
   void
   BackgroundGrid<dim>::tabulate_cells()
   {
-    cell_iterators.assign(window_.n_cells_total(), triangulation_->end());
-    cell_owners.assign(window_.n_cells_total(), 0);
+    cell_iterators.assign(coarsest().n_cells_total(), triangulation_->end());
+    cell_owners.assign(window().n_cells_total(), 0);
     for (const auto &cell : triangulation_->active_cell_iterators())
       if (!cell->is_artificial())
         {
           LatticeIndex<dim> index;
           const auto        center = cell->center();
           for (int d = 0; d < dim; ++d)
-            index[d] = static_cast<int>(std::floor(lattice_.scaled(center[d], d)));
-          cell_iterators[window_.cell_number(index)] = cell;
-          cell_owners[window_.cell_number(index)]    = cell->subdomain_id();
+            index[d] = static_cast<int>(std::floor(lattice().scaled(center[d], d)));
+          cell_iterators[coarsest().cell_number(index)] = cell;
+          cell_owners[window().cell_number(index)]      = cell->subdomain_id();
         }
     MPI_Allreduce(MPI_IN_PLACE,
                   cell_owners.data(),
@@ -139,7 +157,7 @@ namespace kedge
   void
   BackgroundGrid<dim>::tabulate_node_owners()
   {
-    node_owners.assign(window_.n_nodes_total(), 0);
+    node_owners.assign(window().n_nodes_total(), 0);
     if (!parallel())
       return;
 
@@ -157,9 +175,9 @@ namespace kedge
           {
             LatticeIndex<dim> node;
             for (int d = 0; d < dim; ++d)
-              node[d] = static_cast<int>(std::lround(lattice_.scaled(cell->vertex(v)[d], d)));
-            const auto dof                         = cell->vertex_dof_index(v, 0);
-            node_owners[window_.node_number(node)] = static_cast<unsigned int>(
+              node[d] = static_cast<int>(std::lround(lattice().scaled(cell->vertex(v)[d], d)));
+            const auto dof                            = cell->vertex_dof_index(v, 0);
+            node_owners[coarsest().node_number(node)] = static_cast<unsigned int>(
               std::upper_bound(first_of_next.begin(), first_of_next.end(), dof) -
               first_of_next.begin());
           }
@@ -180,10 +198,10 @@ namespace kedge
   {
     for (int d = 0; d < dim; ++d)
       {
-        if (cell[d] <= window_.low[d] && window_.low[d] > 0)
+        if (cell[d] <= coarsest().low[d] && coarsest().low[d] > 0)
           return true;
-        const int end = window_.low[d] + window_.n_cells[d];
-        if (cell[d] >= end - 1 && end < lattice_.n_cells[d])
+        const int end = coarsest().low[d] + coarsest().n_cells[d];
+        if (cell[d] >= end - 1 && end < lattice().n_cells[d])
           return true;
       }
     return false;

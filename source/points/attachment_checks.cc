@@ -78,17 +78,17 @@ namespace kedge
   std::vector<std::size_t>
   count_held_nodes(const std::vector<NodeConditionParameters<dim>> &conditions,
                    const std::map<std::string, double>             &constants,
-                   const Lattice<dim>                              &lattice,
+                   const GridLevels<dim>                           &levels,
                    const std::vector<PointOrigin<dim>>             &points)
   {
-    const auto               nodes = nodes_of_cells_with_points<dim>(lattice, points);
+    const auto               nodes = nodes_of_cells_with_points<dim>(levels, points);
     std::vector<std::size_t> n_held;
     for (const auto &condition : conditions)
       {
         const NodeRegion<dim> region(condition, constants);
         n_held.push_back(
           std::count_if(nodes.begin(), nodes.end(), [&](const LatticeIndex<dim> &node) {
-            return region.holds(lattice, node);
+            return region.holds(levels.finest(), node);
           }));
       }
     return n_held;
@@ -110,7 +110,7 @@ namespace kedge
   template std::vector<std::size_t>
   count_held_nodes(const std::vector<NodeConditionParameters<2>> &,
                    const std::map<std::string, double> &,
-                   const Lattice<2> &,
+                   const GridLevels<2> &,
                    const std::vector<PointOrigin<2>> &);
   template void
   check_nearness(const std::string &,
@@ -124,6 +124,6 @@ namespace kedge
   template std::vector<std::size_t>
   count_held_nodes(const std::vector<NodeConditionParameters<3>> &,
                    const std::map<std::string, double> &,
-                   const Lattice<3> &,
+                   const GridLevels<3> &,
                    const std::vector<PointOrigin<3>> &);
 } // namespace kedge

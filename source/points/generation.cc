@@ -12,13 +12,30 @@ namespace kedge
     /** Smaller parts of a sub-cell join a neighbour in their cell, boxes one in any cell. */
     constexpr double smallest_part = 0.1;
 
-    /** Integer box of sub-cells [low, high) that may hold points of a body. */
+    /** Integer box of sub-cells [low, high) of one level that may hold points of a body. */
     template <int dim>
     struct SubCells
     {
-      Lattice<dim>         lattice;
-      std::array<int, dim> per_cell;
-      LatticeIndex<dim>    low, high;
+      const GridLevels<dim> &levels;
+      unsigned int           level;
+      Lattice<dim>           lattice; ///< of the level
+      std::array<int, dim>   per_cell;
+      LatticeIndex<dim>      low, high;
+
+      /** Whether the cell of the grid around a sub-cell is of this level. */
+      bool
+      is_of_level(const LatticeIndex<dim> &sub) const
+      {
+        if (levels.size() == 1)
+          return true;
+        LatticeIndex<dim> coarsest;
+        for (int d = 0; d < dim; ++d)
+          {
+            const int size = per_cell[d] << level;
+            coarsest[d]    = sub[d] < 0 ? -1 : sub[d] / size;
+          }
+        return levels.level_of_cell(coarsest) == level;
+      }
 
       dealii::Point<dim>
       centre(const LatticeIndex<dim> &sub) const
@@ -103,15 +120,18 @@ namespace kedge
 
     template <int dim>
     SubCells<dim>
-    sub_cells_of(const BodyParameters<dim> &body, const Lattice<dim> &lattice)
+    sub_cells_of(const BodyParameters<dim> &body,
+                 const GridLevels<dim>     &levels,
+                 const unsigned int         level)
     {
-      dealii::Point<dim> upper;
+      const Lattice<dim> &lattice = levels.lattice(level);
+      dealii::Point<dim>  upper;
       for (int d = 0; d < dim; ++d)
         upper[d] = lattice.upper(d);
       const dealii::BoundingBox<dim> domain({lattice.origin, upper});
       const auto bounds = body.geometry->bounding_box(domain).get_boundary_points();
 
-      SubCells<dim> sub_cells{lattice, {}, {}, {}};
+      SubCells<dim> sub_cells{levels, level, lattice, {}, {}, {}};
       for (int d = 0; d < dim; ++d)
         {
           const double tolerance = 1e-9 * (upper[d] - lattice.origin[d]);
@@ -206,19 +226,31 @@ namespace kedge
       return piece;
     }
 
+    /** What of a body lies in a sub-cell, if anything. */
+    template <int dim>
+    std::optional<Piece<dim>>
+    piece_in(const BodyParameters<dim> &body,
+             const SubCells<dim>       &sub_cells,
+             const LatticeIndex<dim>   &sub)
+    {
+      if (body.clip)
+        return clipped_piece<dim>(*body.geometry, sub_cells, sub);
+      if (!body.geometry->contains(sub_cells.centre(sub)))
+        return std::nullopt;
+      const auto whole = VolumeMoments<dim>::of_box(sub_cells.half_lengths());
+      return Piece<dim>{sub, true, true, 1., whole};
+    }
+
     template <int dim>
     Pieces<dim>
     find_pieces(const BodyParameters<dim> &body, const SubCells<dim> &sub_cells)
     {
-      const auto  whole = VolumeMoments<dim>::of_box(sub_cells.half_lengths());
       Pieces<dim> pieces;
       pieces.of_key.assign(sub_cells.n_keys(), -1);
       sub_cells.for_each([&](const LatticeIndex<dim> &sub) {
-        std::optional<Piece<dim>> piece;
-        if (body.clip)
-          piece = clipped_piece<dim>(*body.geometry, sub_cells, sub);
-        else if (body.geometry->contains(sub_cells.centre(sub)))
-          piece = Piece<dim>{sub, true, true, 1., whole};
+        if (!sub_cells.is_of_level(sub))
+          return;
+        const auto piece = piece_in<dim>(body, sub_cells, sub);
         if (!piece)
           return;
         pieces.of_key[sub_cells.key(sub)] = static_cast<int>(pieces.list.size());
@@ -345,6 +377,59 @@ namespace kedge
         state.velocity[d] = velocity[d](coordinates);
       return state;
     }
+
+    /** Appends the points of the cells of one level. */
+    template <int dim>
+    void
+    add_points_of_level(const BodyParameters<dim>                      &body,
+                        const unsigned int                              body_index,
+                        const double                                    density,
+                        const SubCells<dim>                            &sub_cells,
+                        const std::array<Expression, std::size_t(dim)> &velocity,
+                        const std::uint64_t                             first_id,
+                        std::vector<GeneratedPoint<dim>>               &points)
+    {
+      Pieces<dim> pieces = find_pieces(body, sub_cells);
+      join_small_pieces(pieces, sub_cells);
+
+      const double     whole_volume = sub_cells.volume();
+      std::vector<int> point_of(pieces.list.size(), -1);
+      points.reserve(points.size() + pieces.list.size());
+      for (std::size_t i = 0; i < pieces.list.size(); ++i)
+        {
+          const Piece<dim> &piece = pieces.list[i];
+          if (piece.joined >= 0)
+            continue;
+          point_of[i]  = static_cast<int>(points.size());
+          const auto x = sub_cells.centre(piece.sub) +
+                         (piece.whole ? dealii::Tensor<1, dim>() : piece.moments.centre());
+          points.push_back({{first_id + points.size(),
+                             x,
+                             state_at_rest<dim>(x,
+                                                piece.whole ? sub_cells.half_lengths()
+                                                            : domain_of(sub_cells, piece),
+                                                piece.whole ? whole_volume : piece.moments.volume,
+                                                body_index,
+                                                density,
+                                                velocity)},
+                            0u});
+        }
+      for (std::size_t i = 0; i < pieces.list.size(); ++i)
+        {
+          const Piece<dim> &piece = pieces.list[i];
+          auto &point = points[point_of[piece.joined >= 0 ? piece.joined : static_cast<int>(i)]];
+          for (int side = 0; side < 2 * dim; ++side)
+            {
+              LatticeIndex<dim> neighbour = piece.sub;
+              neighbour[side / 2] += side % 2 == 0 ? -1 : 1;
+              const bool covered = sub_cells.is_of_level(neighbour)
+                                     ? pieces.of_key[sub_cells.key(neighbour)] >= 0
+                                     : piece_in<dim>(body, sub_cells, neighbour).has_value();
+              if (!covered)
+                point.exposed_sides |= 1u << side;
+            }
+        }
+    }
   } // namespace
 
 
@@ -354,7 +439,7 @@ namespace kedge
   generate_points(const BodyParameters<dim>           &body,
                   const unsigned int                   body_index,
                   const double                         density,
-                  const Lattice<dim>                  &lattice,
+                  const GridLevels<dim>               &levels,
                   const std::map<std::string, double> &constants,
                   const std::uint64_t                  first_id)
   {
@@ -362,52 +447,22 @@ namespace kedge
     for (int d = 0; d < dim; ++d)
       velocity[d] = Expression(body.initial_velocity[d], {"x", "y", "z"}, constants);
 
-    const SubCells<dim> sub_cells = sub_cells_of(body, lattice);
-    Pieces<dim>         pieces    = find_pieces(body, sub_cells);
-    if (pieces.list.empty())
+    std::vector<GeneratedPoint<dim>> points;
+    for (unsigned int level = 0; level < levels.size(); ++level)
+      add_points_of_level<dim>(body,
+                               body_index,
+                               density,
+                               sub_cells_of(body, levels, level),
+                               velocity,
+                               first_id,
+                               points);
+    if (points.empty())
       throw UserError("Body '" + body.name + "' got no material point: its geometry contains no " +
                       (body.clip ? "part of the grid's cells"
                                  : "centre of the grid's sub-cells. Refine the grid (Grid/Cells) "
                                    "or use more points per cell (Bodies/" +
                                      body.name + "/Points per cell)") +
                       ".");
-    join_small_pieces(pieces, sub_cells);
-
-    const double                     whole_volume = sub_cells.volume();
-    std::vector<int>                 point_of(pieces.list.size(), -1);
-    std::vector<GeneratedPoint<dim>> points;
-    points.reserve(pieces.list.size());
-    for (std::size_t i = 0; i < pieces.list.size(); ++i)
-      {
-        const Piece<dim> &piece = pieces.list[i];
-        if (piece.joined >= 0)
-          continue;
-        point_of[i]  = static_cast<int>(points.size());
-        const auto x = sub_cells.centre(piece.sub) +
-                       (piece.whole ? dealii::Tensor<1, dim>() : piece.moments.centre());
-        points.push_back(
-          {{first_id + points.size(),
-            x,
-            state_at_rest<dim>(x,
-                               piece.whole ? sub_cells.half_lengths() : domain_of(sub_cells, piece),
-                               piece.whole ? whole_volume : piece.moments.volume,
-                               body_index,
-                               density,
-                               velocity)},
-           0u});
-      }
-    for (std::size_t i = 0; i < pieces.list.size(); ++i)
-      {
-        const Piece<dim> &piece = pieces.list[i];
-        auto &point = points[point_of[piece.joined >= 0 ? piece.joined : static_cast<int>(i)]];
-        for (int side = 0; side < 2 * dim; ++side)
-          {
-            LatticeIndex<dim> neighbour = piece.sub;
-            neighbour[side / 2] += side % 2 == 0 ? -1 : 1;
-            if (pieces.of_key[sub_cells.key(neighbour)] < 0)
-              point.exposed_sides |= 1u << side;
-          }
-      }
     return points;
   }
 
@@ -415,14 +470,14 @@ namespace kedge
   generate_points(const BodyParameters<2> &,
                   const unsigned int,
                   const double,
-                  const Lattice<2> &,
+                  const GridLevels<2> &,
                   const std::map<std::string, double> &,
                   const std::uint64_t);
   template std::vector<GeneratedPoint<3>>
   generate_points(const BodyParameters<3> &,
                   const unsigned int,
                   const double,
-                  const Lattice<3> &,
+                  const GridLevels<3> &,
                   const std::map<std::string, double> &,
                   const std::uint64_t);
 } // namespace kedge

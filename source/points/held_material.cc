@@ -41,7 +41,7 @@ namespace kedge
 
   template <int dim>
   std::vector<LatticeIndex<dim>>
-  nodes_of_cells_with_points(const Lattice<dim>                  &lattice,
+  nodes_of_cells_with_points(const GridLevels<dim>               &levels,
                              const std::vector<PointOrigin<dim>> &points)
   {
     const auto make_unique = [](std::vector<LatticeIndex<dim>> &indices) {
@@ -50,16 +50,16 @@ namespace kedge
     };
     std::vector<LatticeIndex<dim>> cells, nodes;
     for (const auto &point : points)
-      if (const auto cell = lattice.cell_of(point.location); cells.empty() || cells.back() != cell)
+      if (const auto cell = levels.cell_at(point.location); cells.empty() || cells.back() != cell)
         cells.push_back(cell); // points of a cell often stand together
     make_unique(cells);
     for (const auto &cell : cells)
       for (unsigned int corner = 0; corner < (1u << dim); ++corner)
         {
-          LatticeIndex<dim> node = cell;
+          LevelNode<dim> node = levels.on_level(cell);
           for (int d = 0; d < dim; ++d)
-            node[d] += static_cast<int>((corner >> d) & 1u);
-          nodes.push_back(node);
+            node.index[d] += static_cast<int>((corner >> d) & 1u);
+          nodes.push_back(levels.finest_index(node));
         }
     make_unique(nodes);
     return nodes;
@@ -214,7 +214,7 @@ namespace kedge
 
 #define KEDGE_INSTANTIATE(dim)                                                     \
   template std::vector<LatticeIndex<dim>> nodes_of_cells_with_points<dim>(         \
-    const Lattice<dim> &,                                                          \
+    const GridLevels<dim> &,                                                       \
     const std::vector<PointOrigin<dim>> &);                                        \
   template double reach_beyond_nodes<dim>(const NodeRegion<dim> &,                 \
                                           const Lattice<dim> &,                    \

@@ -21,7 +21,7 @@ namespace kedge
       for (const auto &record : records)
         {
           const auto cell = grid.lattice().cell_of(record.location);
-          AssertThrow(grid.window().contains_cell(cell),
+          AssertThrow(grid.covers(cell),
                       dealii::ExcMessage("A material point lies outside the grid's window."));
           auto             &buffer = outgoing[grid.cell_owner(cell)];
           const std::size_t begin  = buffer.size();

@@ -124,27 +124,41 @@ namespace kedge
       SectionDeclaration
       grid() const
       {
-        return {"Grid",
-                "The box with the background grid, divided into equal cells.",
-                SectionKind::plain,
-                {{"Origin",
-                  per_direction("0", ", "),
-                  allow.vector(),
-                  "Corner with the lowest x, y, z [m]."},
-                 {"Extent",
-                  "",
-                  allow.vector(Range::positive()).or_empty(),
-                  "Lengths of the edges [m]; empty: for scenes of Rigid bodies alone."},
-                 {"Cells",
-                  "",
-                  allow.counts(false).or_empty(),
-                  "Number of cells per direction [-]; empty: likewise."},
-                 {"Open sides",
-                  "",
-                  allow.sides().or_empty(),
-                  "Sides through which material leaves the grid: its points are taken out of the "
-                  "run, and history.csv shows what they take with them. At other sides a point "
-                  "that would leave ends the run."}}};
+        std::vector<std::string> variables = coordinates("xyz");
+        variables.insert(variables.end(), {"t", "plastic_strain", "distance"});
+        return {
+          "Grid",
+          "The box with the background grid, divided into equal cells.",
+          SectionKind::plain,
+          {{"Origin",
+            per_direction("0", ", "),
+            allow.vector(),
+            "Corner with the lowest x, y, z [m]."},
+           {"Extent",
+            "",
+            allow.vector(Range::positive()).or_empty(),
+            "Lengths of the edges [m]; empty: for scenes of Rigid bodies alone."},
+           {"Cells",
+            "",
+            allow.counts(false).or_empty(),
+            "Number of cells per direction [-]; empty: likewise."},
+           {"Refinement",
+            "",
+            allow.expression(variables, coordinate_words("xyz") + ", t, plastic_strain, distance")
+              .or_empty(),
+            "How often a cell with its middle at this place is halved in every direction, a "
+            "whole number from 0 to 6 [-], for example if(abs(x) < 1, 2, 0) or "
+            "if(plastic_strain > 0.02, 1, 0); empty: never. t is the time; plastic_strain "
+            "the largest equivalent plastic strain of the points in the cell; distance that of "
+            "its middle from the nearest surface of a rigid body [m]. Neighbours "
+            "differ by one at most, so that more cells may be halved. Points per cell "
+            "counts for each cell as it is at the start."},
+           {"Open sides",
+            "",
+            allow.sides().or_empty(),
+            "Sides through which material leaves the grid: its points are taken out of the "
+            "run, and history.csv shows what they take with them. At other sides a point "
+            "that would leave ends the run."}}};
       }
 
       SectionDeclaration

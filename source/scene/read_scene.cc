@@ -13,6 +13,7 @@
 #include <kedge/scene/read_numerics.h>
 #include <kedge/scene/read_pore_fluid.h>
 #include <kedge/scene/read_scene.h>
+#include <kedge/scene/refinement_checks.h>
 #include <kedge/scene/rigid_section.h>
 #include <kedge/scene/values.h>
 
@@ -128,9 +129,10 @@ namespace kedge
         if (section.is_empty(entry))
           throw UserError(reader.place({"Grid"}, entry) + ": Grid/" + entry +
                           " must be given, but for scenes of Rigid bodies alone.");
-      grid.origin  = point<dim>(section, "Origin");
-      grid.extent  = point<dim>(section, "Extent");
-      grid.n_cells = counts<dim>(section, "Cells");
+      grid.origin     = point<dim>(section, "Origin");
+      grid.extent     = point<dim>(section, "Extent");
+      grid.n_cells    = counts<dim>(section, "Cells");
+      grid.refinement = section.text("Refinement");
       check_grid(section, grid);
       return grid;
     }
@@ -336,6 +338,7 @@ namespace kedge
       });
       errors.attempt([&]() {
         set_elements(reader, scene);
+        check_refinement(reader, scene);
       });
       errors.attempt([&]() {
         for (const ContactParameters &contact : scene.contacts)

@@ -37,7 +37,7 @@ namespace kedge
       const auto &conditions = model.scene.node_conditions;
       const auto  n_held     = count_held_nodes(conditions,
                                            model.scene.constants,
-                                           model.points.grid().lattice(),
+                                           model.points.grid().levels(),
                                            model.generated_points());
       bool        any        = false;
       std::string idle;
@@ -164,8 +164,9 @@ namespace kedge
     void
     describe_regions(const Model<dim> &model, std::ostream &out)
     {
-      const Lattice<dim> &lattice = model.points.grid().lattice();
-      const auto nodes = nodes_of_cells_with_points<dim>(lattice, model.generated_points());
+      const Lattice<dim> &lattice = model.points.grid().levels().finest();
+      const auto          nodes =
+        nodes_of_cells_with_points<dim>(model.points.grid().levels(), model.generated_points());
       for (const auto &condition : model.scene.node_conditions)
         {
           const NodeRegion<dim> region(condition, model.scene.constants);

@@ -2,6 +2,7 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/rigid/joint_term.h>
 #include <kedge/rigid/line_term.h>
+#include <kedge/rigid/rigid_distance.h>
 #include <kedge/rigid/rigid_term.h>
 #include <kedge/simulation/model.h>
 
@@ -25,6 +26,9 @@ namespace kedge
                                                  scene.time.start,
                                                  communicator);
     rigid_bodies                        = &term->bodies();
+    points.set_distances([bodies = rigid_bodies](const std::vector<dealii::Point<dim>> &places) {
+      return distances_to_surfaces(*bodies, places);
+    });
     terms.push_back(std::move(term));
     if (!scene.joints.empty())
       terms.push_back(std::make_unique<JointTerm<dim>>(scene.joints, *rigid_bodies, scheme));

@@ -271,8 +271,7 @@ namespace kedge
   void
   Model<dim>::choose_surface_terms()
   {
-    const double h =
-      points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
+    const double h = smallest_cell_size();
     for (unsigned int b = 0; b < bodies.names.size(); ++b)
       {
         constexpr double none    = std::numeric_limits<double>::max();
@@ -326,8 +325,7 @@ namespace kedge
   void
   Model<dim>::choose_contact_terms(const LoadProgram &program)
   {
-    const double h =
-      points.grid().lattice().smallest_cell_size() * points.grid().lattice().node_intervals;
+    const double                                    h = smallest_cell_size();
     std::map<std::string, const BodySurface<dim> *> surfaces;
     for (const SurfaceTerm<dim> *term : surface_terms)
       surfaces[term->surface().body_name] = &term->surface();

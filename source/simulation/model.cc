@@ -1,7 +1,9 @@
 #include <kedge/base/exceptions.h>
 #include <kedge/points/attachment_checks.h>
 #include <kedge/points/generation.h>
+#include <kedge/points/node_region.h>
 #include <kedge/porous/outflow_term.h>
+#include <kedge/rigid/rigid_distance.h>
 #include <kedge/simulation/model.h>
 #include <kedge/simulation/separate_pieces.h>
 #include <kedge/solid/initial_history.h>
@@ -11,6 +13,40 @@
 
 namespace kedge
 {
+  namespace
+  {
+    /** The elements of a scene in the whole of its box, refined. */
+    template <int dim>
+    GridLevels<dim>
+    levels_of(const Scene<dim> &scene)
+    {
+      GridParameters<dim> elements = scene.grid;
+      elements.node_intervals      = 1;
+      const Lattice<dim>        lattice(elements);
+      GridLevels<dim>           levels(lattice);
+      const RefinementRule<dim> rule(scene.grid.refinement, scene.constants);
+      if (!rule.any())
+        return levels;
+      LatticeWindow<dim> all;
+      all.n_cells = lattice.n_cells;
+      levels.cover(all);
+      RefinementState state;
+      state.t = just_after(scene.time.start);
+      if (rule.asks_distance())
+        {
+          RigidBodies<dim>               tools(1., MPI_COMM_SELF);
+          const dealii::BoundingBox<dim> domain(
+            {scene.grid.origin, scene.grid.origin + scene.grid.extent});
+          make_rigid_bodies(scene.rigid_bodies, domain, tools);
+          state.distance = distances_to_surfaces(tools, middles_of_cells(lattice, all));
+        }
+      levels.refine(rule.wanted(lattice, all, state));
+      return levels;
+    }
+  } // namespace
+
+
+
   template <int dim>
   Model<dim>::Model(const Scene<dim>  &scene,
                     const MPI_Comm     communicator,
@@ -21,8 +57,10 @@ namespace kedge
     , bodies(read_bodies(this->scene))
     , points(scene.grid,
              OpenSides<dim>(scene.open_sides),
+             RefinementRule<dim>(scene.grid.refinement, scene.constants),
              layout_of_points<dim>(bodies, scene.pore_fluid.has_value(), scheme),
              communicator)
+    , levels_at_start(levels_of(scene))
   {
     make_fields(program);
     choose_surface_terms();
@@ -135,16 +173,17 @@ namespace kedge
   void
   Model<dim>::create_points()
   {
-    check_node_conditions(scene.node_conditions, scene.constants, points.grid().lattice());
-    GridParameters<dim> elements = scene.grid;
-    elements.node_intervals      = 1;
+    check_node_conditions(scene.node_conditions,
+                          scene.constants,
+                          levels_at_start.size() > 1 ? levels_at_start.finest()
+                                                     : points.grid().lattice());
     std::vector<GeneratedPoint<dim>> made;
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       {
         auto of_body = generate_points(scene.bodies[b],
                                        b,
                                        bodies.densities[b],
-                                       Lattice<dim>(elements),
+                                       levels_at_start,
                                        scene.constants,
                                        made.size());
         if (made.empty())
@@ -167,7 +206,17 @@ namespace kedge
     for (const auto &point : made)
       records.push_back(point.record);
     std::vector<GeneratedPoint<dim>>().swap(made); // as large as all that follows
-    points.begin(std::move(records));
+    points.begin(std::move(records), scene.time.start);
+  }
+
+
+
+  /** Edge of the finest elements that the scene's rule makes [m]. */
+  template <int dim>
+  double
+  Model<dim>::smallest_cell_size() const
+  {
+    return levels_at_start.finest().smallest_cell_size();
   }
 
 

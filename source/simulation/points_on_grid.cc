@@ -1,3 +1,8 @@
+#include <kedge/base/exceptions.h>
+#include <kedge/basis/stencil.h>
+#include <kedge/materials/material.h>
+#include <kedge/points/node_region.h>
+#include <kedge/points/split_points.h>
 #include <kedge/simulation/points_on_grid.h>
 
 namespace kedge
@@ -5,20 +10,26 @@ namespace kedge
   template <int dim>
   PointsOnGrid<dim>::PointsOnGrid(const GridParameters<dim> &parameters,
                                   const OpenSides<dim>      &open_sides,
+                                  const RefinementRule<dim> &refinement,
                                   const PointLayout<dim>    &layout,
                                   const MPI_Comm             communicator)
     : communicator(communicator)
     , open_sides(open_sides)
+    , refinement(refinement)
     , background(parameters, communicator)
     , cloud(layout)
-  {}
+  {
+    if (refinement.any() && dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+      throw UserError("Grid/Refinement: a refined grid runs on one process.");
+  }
 
 
 
   template <int dim>
   void
-  PointsOnGrid<dim>::begin(std::vector<PointRecord<dim>> records)
+  PointsOnGrid<dim>::begin(std::vector<PointRecord<dim>> records, const double t)
   {
+    time = t;
     cover(records);
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       records.clear();
@@ -41,12 +52,18 @@ namespace kedge
   void
   PointsOnGrid<dim>::restore(const std::vector<PointRecord<dim>> &records,
                              const LatticeWindow<dim>            &covered_cells,
-                             const std::vector<unsigned int>     &covered_weights)
+                             const std::vector<unsigned int>     &covered_weights,
+                             const double                         t)
   {
+    time    = t;
     covered = covered_cells;
     weights = covered_weights;
     cloud.clear();
     background.cover(covered, weights);
+    refine([&](const auto &visit) {
+      for (const auto &record : records)
+        visit(record.location, record.state);
+    });
     cloud.distribute(background, records);
   }
 
@@ -95,6 +112,53 @@ namespace kedge
       }
     cloud.clear();
     background.cover(covered, weights);
+    refine([&](const auto &visit) {
+      for (const auto &record : records)
+        visit(record.location, record.state);
+    });
+  }
+
+
+
+  template <int dim>
+  template <class Points>
+  void
+  PointsOnGrid<dim>::refine(const Points &for_points)
+  {
+    if (!refinement.any())
+      return;
+    const LatticeWindow<dim> &cells = background.levels().coarsest_cells();
+    RefinementState           state;
+    state.t = just_after(time);
+    if (refinement.asks_plastic_strain())
+      {
+        const unsigned int column = memory_index("equivalent_plastic_strain");
+        state.plastic_strain.assign(cells.n_cells_total(), 0.);
+        for_points([&](const dealii::Point<dim> &x, const PointState<dim> &point) {
+          double &here = state.plastic_strain[cells.cell_number(background.lattice().cell_of(x))];
+          here         = std::max(here, point.memory[column]);
+        });
+      }
+    if (refinement.asks_distance() && distances)
+      state.distance = distances(middles_of_cells(background.lattice(), cells));
+    background.refine(refinement.wanted(background.lattice(), cells, state));
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOnGrid<dim>::renew_refinement()
+  {
+    if (refinement.may_change())
+      refine([&](const auto &visit) {
+        cloud.for_each([&](const unsigned int,
+                           const std::uint64_t,
+                           const dealii::Point<dim> &x,
+                           const PointState<dim>    &state) {
+          visit(x, state);
+        });
+      });
   }
 
 
@@ -127,9 +191,40 @@ namespace kedge
 
 
   template <int dim>
-  std::vector<PointRecord<dim>>
-  PointsOnGrid<dim>::follow()
+  bool
+  PointsOnGrid<dim>::split_large_points()
   {
+    std::vector<PointRecord<dim>> parts;
+    const GridLevels<dim>        &levels = background.levels();
+    bool                          any    = false;
+    std::uint64_t                 last   = 0;
+    const auto parts_of = [&](const dealii::Point<dim> &x, const PointCore<dim> &state) {
+      // of the cells that it touches, whose functions it has
+      const unsigned int level = levels.level_at(x, state.half_lengths, gimp_smallest_overlap);
+      return parts_for_cell<dim>(state, level > 0 ? &levels.lattice(level) : nullptr);
+    };
+    cloud.for_each_core([&](const unsigned int,
+                            const std::uint64_t       id,
+                            const dealii::Point<dim> &x,
+                            const PointCore<dim>     &state) {
+      last = std::max(last, id);
+      any  = any || is_many(parts_of(x, state));
+    });
+    if (!any)
+      return false;
+    for (const PointRecord<dim> &record : cloud.records())
+      split_point<dim>(record, parts_of(record.location, record.state), last, parts);
+    replace(parts);
+    return true;
+  }
+
+
+
+  template <int dim>
+  std::vector<PointRecord<dim>>
+  PointsOnGrid<dim>::follow(const double t)
+  {
+    time = t;
     std::vector<PointRecord<dim>> gone;
     if (open_sides.any() && take_out(gone))
       return gone;
@@ -140,13 +235,18 @@ namespace kedge
                             const PointCore<dim> &) {
       const auto cell = background.lattice().cell_of(x);
       close           = close || background.too_close_to_border(cell);
-      outside         = outside || !background.window().contains_cell(cell);
+      outside         = outside || !background.covers(cell);
     });
     if (dealii::Utilities::MPI::logical_or(close || outside, communicator))
       {
         replace(cloud.records());
+        if (background.is_refined())
+          split_large_points();
         return gone;
       }
+    renew_refinement();
+    if (background.is_refined() && split_large_points())
+      return gone;
     const std::uint64_t missing = cloud.relocate(background);
     AssertThrow(missing == 0,
                 dealii::ExcMessage(std::to_string(missing) +

@@ -80,11 +80,12 @@ namespace kedge
     const auto                     &weights = data.arrays.at("covered_weights");
     const std::vector<unsigned int> points_per_cell(weights.begin(), weights.end());
     if (data.n_ranks == dealii::Utilities::MPI::n_mpi_processes(communicator))
-      model.points.restore(data.points, covered, points_per_cell);
+      model.points.restore(data.points, covered, points_per_cell, data.scalars.at("time"));
     else
       model.points.replace(data.points); // shares them out anew
     for (auto &term : model.terms)
       term->restore(data.arrays);
+    model.points.renew_refinement(); // rigid bodies stand where they were
     step.points_changed();
 
     clock.restore({data.scalars.at("time"),

@@ -17,7 +17,9 @@ namespace kedge
         snapshot.nodes.push_back(patch.node_position(i));
       for (unsigned int c = 0; c < patch.window().n_cells_total(); ++c)
         {
-          const auto                           cell = patch.window().cell_index(c);
+          const auto cell = patch.window().cell_index(c);
+          if (!patch.grid().levels().is_cell(cell))
+            continue;
           std::array<unsigned int, (1 << dim)> vertices;
           bool                                 complete = true;
           for (unsigned int v = 0; v < (1u << dim); ++v)

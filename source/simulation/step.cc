@@ -215,7 +215,8 @@ namespace kedge
         term->book(trial, step_equations.last_residual(), model.ledger);
       for (auto &term : model.terms)
         term->commit(trial, model.points.points());
-      const std::vector<PointRecord<dim>> gone = model.points.follow();
+      const std::vector<PointRecord<dim>> gone =
+        model.points.follow(trial.times.t_n + trial.times.dt);
       for (const auto &term : model.terms)
         term->book_outflow(gone, model.ledger);
     }
@@ -319,7 +320,7 @@ namespace kedge
   double
   cfl_step(const Model<dim> &model, Step<dim> &step, const StepSizeKind kind)
   {
-    const Lattice<dim> &lattice = model.points.grid().lattice();
+    const Lattice<dim> &lattice = model.points.grid().levels().finest();
     if (kind == StepSizeKind::cfl_initial)
       {
         double slowness = std::numeric_limits<double>::max();

@@ -77,7 +77,7 @@ namespace kedge
       }
     n_said.resize(watched.size(), 0);
     if (!watched.empty())
-      held.emplace(conditions, model.points.grid().lattice());
+      held.emplace(conditions, model.points.grid().levels().finest());
   }
 
 

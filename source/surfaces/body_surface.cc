@@ -23,23 +23,71 @@ namespace kedge
 
 
 
+  namespace
+  {
+    /** Calls visit(cell) for the cells of a level around @p x that have numbers. */
+    template <int dim, typename Visit>
+    void
+    for_cells_around(const GridLevels<dim>    &levels,
+                     const unsigned int        level,
+                     const dealii::Point<dim> &x,
+                     const int                 radius,
+                     const Visit              &visit)
+    {
+      const LatticeIndex<dim> here  = levels.lattice(level).cell_of(x);
+      const int               width = 2 * radius + 1;
+      unsigned int            n     = 1;
+      for (int d = 0; d < dim; ++d)
+        n *= width;
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          LatticeIndex<dim> cell;
+          unsigned int      rest = k;
+          for (int d = 0; d < dim; ++d, rest /= width)
+            cell[d] = here[d] + static_cast<int>(rest % width) - radius;
+          if (levels.cells(level).contains_cell(cell))
+            visit(cell);
+        }
+    }
+
+    /** How far a place is from a cell, in cells: of those that touch in it the one whose centre is
+     * nearest is nearer. */
+    template <int dim>
+    double
+    distance_to(const Lattice<dim>       &lattice,
+                const LatticeIndex<dim>  &cell,
+                const dealii::Point<dim> &x)
+    {
+      double outside = 0., from_centre = 0.; // squares
+      for (int d = 0; d < dim; ++d)
+        {
+          const double s = lattice.scaled(x[d], d) - cell[d];
+          outside += std::pow(std::max({-s, 0., s - 1.}), 2);
+          from_centre += (s - 0.5) * (s - 0.5);
+        }
+      return std::sqrt(outside) + 1e-3 * std::sqrt(from_centre);
+    }
+  } // namespace
+
+
+
   /** How much of each cell of the window the body's points fill, in cells. */
   template <int dim>
   std::vector<double>
   BodySurface<dim>::fillings() const
   {
-    const auto         &lattice     = patch.grid().lattice();
-    const auto         &window      = patch.window();
-    double              cell_volume = 1.;
-    std::vector<double> result(window.n_cells_total(), 0.);
-    for (int d = 0; d < dim; ++d)
-      cell_volume *= lattice.h[d];
-    const auto &points = patch.points;
+    const GridLevels<dim> &levels = patch.grid().levels();
+    std::vector<double>    result(patch.window().n_cells_total(), 0.);
+    const auto            &points = patch.points;
     for (const auto &batch : points.batches)
       if (batch.body == body)
         for (unsigned int slot = batch.begin; slot < batch.end; ++slot)
-          result[window.cell_number(lattice.cell_of(points.location[slot]))] +=
-            points.volume[slot] * points.determinant[slot] / cell_volume;
+          {
+            const LatticeIndex<dim> cell = levels.cell_at(points.location[slot]);
+            result[patch.window().cell_number(cell)] +=
+              points.volume[slot] * points.determinant[slot] /
+              levels.lattice(levels.on_level(cell).level).cell_volume();
+          }
     if (dealii::Utilities::MPI::n_mpi_processes(patch.grid().communicator()) > 1)
       MPI_Allreduce(MPI_IN_PLACE, // points of a cell are all on one rank: the sums are exact
                     result.data(),
@@ -63,7 +111,7 @@ namespace kedge
       double            most  = 0.;                                 ///< filling of the fullest
     };
 
-    /** Looks at the cells around @p x, up to @p radius away. */
+    /** Looks at the cells of all levels around @p x, up to @p radius of them away. */
     template <int dim>
     Surroundings<dim>
     look_around(const Patch<dim>          &patch,
@@ -71,45 +119,48 @@ namespace kedge
                 const std::vector<double> &filling,
                 const int                  radius)
     {
-      const auto             &lattice = patch.grid().lattice();
-      const auto             &window  = patch.window();
-      const LatticeIndex<dim> here    = lattice.cell_of(x);
-      Surroundings<dim>       result;
-      result.nearest = result.fullest = here;
-      const int    width              = 2 * radius + 1;
-      unsigned int n                  = 1;
-      for (int d = 0; d < dim; ++d)
-        n *= width;
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          LatticeIndex<dim> cell;
-          unsigned int      rest = k;
-          for (int d = 0; d < dim; ++d, rest /= width)
-            cell[d] = here[d] + static_cast<int>(rest % width) - radius;
-          if (!window.contains_cell(cell))
-            continue;
-          const double full = filling[window.cell_number(cell)];
+      const GridLevels<dim> &levels = patch.grid().levels();
+      Surroundings<dim>      result;
+      result.nearest = result.fullest = levels.cell_at(x);
+      for (unsigned int level = 0; level < levels.size(); ++level)
+        for_cells_around<dim>(levels, level, x, radius, [&](const LatticeIndex<dim> &cell) {
+          const LatticeIndex<dim> in_window = levels.in_window({level, cell});
+          const double            full      = filling[patch.window().cell_number(in_window)];
           if (full > result.most)
             {
               result.most    = full;
-              result.fullest = cell;
+              result.fullest = in_window;
             }
           if (full < BodySurface<dim>::well_filled * (1. - 1e-9))
-            continue;
-          double outside = 0., from_centre = 0.; // squares of distances, in cells
-          for (int d = 0; d < dim; ++d)
-            {
-              const double s = lattice.scaled(x[d], d) - cell[d];
-              outside += std::pow(std::max({-s, 0., s - 1.}), 2);
-              from_centre += (s - 0.5) * (s - 0.5);
-            }
-          // of cells that touch in x the one whose centre is nearest
-          const double distance = std::sqrt(outside) + 1e-3 * std::sqrt(from_centre);
+            return;
+          const double distance = distance_to<dim>(levels.lattice(level), cell, x) / (1 << level);
           if (distance < result.least)
             {
               result.least   = distance;
-              result.nearest = cell;
+              result.nearest = in_window;
             }
+        });
+      return result;
+    }
+
+    /** How near, in the scene's cells, one can be that look_around() with this radius leaves out.
+     */
+    template <int dim>
+    double
+    left_out_beyond(const GridLevels<dim> &levels, const dealii::Point<dim> &x, const int radius)
+    {
+      double result = std::numeric_limits<double>::max();
+      for (unsigned int level = 0; level < levels.size(); ++level)
+        {
+          const Lattice<dim>     &lattice = levels.lattice(level);
+          const LatticeIndex<dim> here    = lattice.cell_of(x);
+          double                  to_next = 0.5; // cell beside this one, in cells
+          for (int d = 0; d < dim; ++d)
+            {
+              const double s = lattice.scaled(x[d], d) - here[d];
+              to_next        = std::min({to_next, s, 1. - s});
+            }
+          result = std::min(result, (to_next + radius) / (1 << level));
         }
       return result;
     }
@@ -123,23 +174,16 @@ namespace kedge
                               const std::vector<double> &filling,
                               const int                  radius) const
   {
-    const auto             &lattice = patch.grid().lattice();
-    const auto             &window  = patch.window();
-    const LatticeIndex<dim> here    = lattice.cell_of(x);
-    double                  to_next = 0.5; // cell beside this one, in cells
-    for (int d = 0; d < dim; ++d)
-      {
-        const double s = lattice.scaled(x[d], d) - here[d];
-        to_next        = std::min({to_next, s, 1. - s});
-      }
     for (int near = 0; near < radius; ++near)
-      if (const auto around = look_around(patch, x, filling, near); around.least < to_next + near)
-        return around.nearest; // all other cells are farther away
+      if (const auto around = look_around(patch, x, filling, near);
+          around.least < left_out_beyond(patch.grid().levels(), x, near))
+        return around.nearest;
     const auto around = look_around(patch, x, filling, radius);
     if (around.most ==
         0.) // far from all material: what is torn off follows the nearest cell there is
       {
-        const int widest = *std::max_element(window.n_cells.begin(), window.n_cells.end());
+        const auto &n      = patch.window().n_cells;
+        const int   widest = *std::max_element(n.begin(), n.end());
         if (radius > 2 * widest)
           {
             std::ostringstream message;
@@ -219,7 +263,7 @@ namespace kedge
           continue;
         claim(root_cell(mesh().vertices[v], filling, search_radius));
         // what lies on a facet between vertices
-        const LatticeIndex<dim> here = patch.grid().lattice().cell_of(mesh().vertices[v]);
+        const LatticeIndex<dim> here = patch.grid().levels().cell_at(mesh().vertices[v]);
         if (around.insert(here).second)
           for (unsigned int k = 0; k < (dim == 2 ? 9u : 27u); ++k)
             {

@@ -30,11 +30,12 @@ namespace kedge
     /** Whether all nodes of a stencil are in use. */
     template <int dim>
     bool
-    has_nodes(const Patch<dim> &patch, const LatticeIndex<dim> &first, const unsigned int pattern)
+    has_nodes(const Patch<dim> &patch, const LevelNode<dim> &lowest, const unsigned int pattern)
     {
-      const auto       &window = patch.window();
-      LatticeIndex<dim> node   = first;
-      int               n      = 1;
+      const auto             &window = patch.grid().levels().numbering(lowest.level);
+      const LatticeIndex<dim> first  = lowest.index;
+      LatticeIndex<dim>       node   = first;
+      int                     n      = 1;
       for (int d = 0; d < dim; ++d)
         {
           const int width = stencil_width(pattern, d);
@@ -62,11 +63,12 @@ namespace kedge
     template <int dim>
     bool
     splines_of_cell(const Patch<dim>         &patch,
-                    const LatticeIndex<dim>  &cell,
+                    const LevelNode<dim>     &here,
                     const dealii::Point<dim> &x,
                     Stencil<dim>             &result)
     {
-      const auto &lattice = patch.grid().lattice();
+      const Lattice<dim>      &lattice = patch.grid().levels().lattice(here.level);
+      const LatticeIndex<dim> &cell    = here.index;
       for (unsigned int flips = 0; flips < (1u << dim); ++flips)
         {
           LatticeIndex<dim> first;
@@ -80,9 +82,9 @@ namespace kedge
               first[d]              = std::max(line - 1, 0);
               result.pattern |= pattern_part(last - first[d] + 1, d);
             }
-          if (!has_nodes<dim>(patch, first, result.pattern))
+          if (!has_nodes<dim>(patch, {here.level, first}, result.pattern))
             continue;
-          result.first_node = patch.window().node_number(first);
+          result.first_node = patch.grid().levels().numbering(here.level).node_number(first);
           for (int d = 0; d < dim; ++d)
             {
               const double s      = lattice.scaled(x[d], d);
@@ -108,8 +110,10 @@ namespace kedge
                     const double (&area)[dim])
   {
     Stencil<dim> result     = patch.points.stencil[slot];
-    const auto  &lattice    = patch.grid().lattice();
-    const auto   first_node = patch.window().node_index(result.first_node);
+    const auto  &levels     = patch.grid().levels();
+    const auto   node       = levels.node(result.first_node);
+    const auto  &first_node = node.index;
+    const auto  &lattice    = levels.lattice(node.level);
     const auto   first      = lattice.node_position(first_node);
     const int    normal     = static_cast<int>(std::max_element(area,
                                                          area + dim,
@@ -147,22 +151,23 @@ namespace kedge
                     const LatticeIndex<dim>  &cell,
                     const dealii::Point<dim> &x)
   {
-    const auto       &lattice = patch.grid().lattice();
-    LatticeIndex<dim> first   = cell;
-    Stencil<dim>      result{};
+    const LevelNode<dim> here    = patch.grid().levels().on_level(cell);
+    const auto          &lattice = patch.grid().levels().lattice(here.level);
+    LatticeIndex<dim>    first   = here.index;
+    Stencil<dim>         result{};
     result.pattern = basis == BasisKind::quadratic ? uniform_pattern<dim>(3) : 0;
     if (basis == BasisKind::spline)
       {
-        if (splines_of_cell<dim>(patch, cell, x, result))
+        if (splines_of_cell<dim>(patch, here, x, result))
           return result;
         result = {}; // the linear functions
       }
     else if (basis == BasisKind::quadratic)
       for (int d = 0; d < dim; ++d)
-        first[d] -= cell[d] % 2;
-    if (!has_nodes<dim>(patch, first, result.pattern))
+        first[d] -= first[d] % 2;
+    if (!has_nodes<dim>(patch, {here.level, first}, result.pattern))
       return std::nullopt;
-    result.first_node = patch.window().node_number(first);
+    result.first_node = patch.grid().levels().numbering(here.level).node_number(first);
     for (int d = 0; d < dim; ++d)
       {
         const double s = lattice.scaled(x[d], d), t = s - first[d], h = lattice.h[d];

@@ -53,8 +53,7 @@ namespace kedge
               const double                               part,
               MeanFunctions                             &sums)
     {
-      const Lattice<dim> &lattice = surface.patch.grid().lattice();
-      const auto          root    = surface.root_at(lattice.cell_of(inside),
+      const auto root = surface.root_at(surface.patch.grid().levels().cell_at(inside),
                                         nearest_vertex<dim>(surface.mesh(), facet, inside));
       if (!root.is_known)
         return;
@@ -89,11 +88,11 @@ namespace kedge
                  const dealii::Tensor<1, dim>              &inward,
                  const unsigned int                         facet)
   {
-    const Lattice<dim> lattice =
-      lattice_of_polynomials(surface.patch.grid().lattice(), surface.patch.basis_of(surface.body));
-    constexpr double depth  = 1e-6;          // of a cell: which one the body lies in
-    const double     length = inward.norm(); // 0 of a facet without area
-    const auto       to_inside =
+    const Lattice<dim> lattice = lattice_of_polynomials(surface.patch.grid().levels().finest(),
+                                                        surface.patch.basis_of(surface.body));
+    constexpr double   depth   = 1e-6;          // of a cell: which one the body lies in
+    const double       length  = inward.norm(); // 0 of a facet without area
+    const auto         to_inside =
       (length > 0. ? depth * lattice.smallest_cell_size() / length : 0.) * inward;
     const auto add_to = [&](const std::array<dealii::Point<dim>, dim> &of_piece,
                             const double                               part,

@@ -202,11 +202,11 @@ namespace kedge
   /** The quadrature points on the chosen parts of a surface, on all ranks alike. */
   template <int dim>
   std::vector<typename SurfaceFacets<dim>::Candidate>
-  SurfaceFacets<dim>::candidates_on(const Chosen &here, const Lattice<dim> &lattice)
+  SurfaceFacets<dim>::candidates_on(const Chosen &here, const GridLevels<dim> &levels)
   {
     std::vector<Candidate> result;
     const Lattice<dim>     polynomials =
-      lattice_of_polynomials(lattice, here.surface->patch.basis_of(here.surface->body));
+      lattice_of_polynomials(levels.finest(), here.surface->patch.basis_of(here.surface->body));
     for (const Part &part : here.parts)
       {
         if (here.surface->mesh().has_left(part.facet))
@@ -216,7 +216,7 @@ namespace kedge
         const auto area = area_vector<dim>(corners), area_at_start = area_vector<dim>(start);
         for (const auto &piece : cut_to_cells<dim>(polynomials, corners, part.covered))
           {
-            const auto   cell     = lattice.cell_of(place_below<dim>(lattice, corners, piece));
+            const auto   cell = levels.cell_at(place_below<dim>(levels.finest(), corners, piece));
             const double fraction = piece.fraction();
             for (const auto &gauss : facet_quadrature<dim>())
               {
@@ -242,7 +242,7 @@ namespace kedge
   void
   SurfaceFacets<dim>::add_points(const Patch<dim> &patch, std::vector<SurfacePoint<dim>> &points)
   {
-    const auto &lattice = patch.grid().lattice();
+    const GridLevels<dim> &levels = patch.grid().levels();
     for (Chosen &here : chosen)
       {
         if (&here.surface->patch != &patch)
@@ -250,7 +250,7 @@ namespace kedge
         if (here.generation != here.surface->generation())
           choose_parts(here);
         const BasisKind basis      = patch.basis_of(here.surface->body);
-        auto            candidates = candidates_on(here, lattice);
+        auto            candidates = candidates_on(here, levels);
         find_points<dim>(PointsOfBody<dim>(patch, here.surface->body),
                          patch.grid().communicator(),
                          candidates);
@@ -262,7 +262,7 @@ namespace kedge
               point.offset[d] = point.place[d] - at[d];
             auto functions = functions_of_cell<dim>(patch, basis, candidate.cell, point.place);
             if (!functions)
-              functions = functions_of_cell<dim>(patch, basis, lattice.cell_of(at), point.place);
+              functions = functions_of_cell<dim>(patch, basis, levels.cell_at(at), point.place);
             AssertThrow(functions, dealii::ExcInternalError());
             point.functions = point.gradients = *functions;
             points.push_back(point);

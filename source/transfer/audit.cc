@@ -76,9 +76,7 @@ namespace kedge
     {
       std::vector<dealii::Tensor<1, dim>> x(patch.nodes.n_local());
       for (unsigned int i = 0; i < x.size(); ++i)
-        x[i] = patch.grid().lattice().node_position(
-                 patch.window().node_index(patch.nodes.window_node(i))) +
-               at_node<dim>(u, i);
+        x[i] = patch.node_position(i) + at_node<dim>(u, i);
       return x;
     }
 

@@ -86,7 +86,7 @@ TEST(PointsAttachment, HeldNodesAreThoseOfCellsWithPoints)
   const auto held =
     count_held_nodes<2>({condition("far", "x > 0.6"), bottom, left, condition("near", "x > 0.4")},
                         {},
-                        four_by_two_cells(),
+                        GridLevels<2>(four_by_two_cells()),
                         {PointOrigin<2>(point), PointOrigin<2>(point)});
   // of the cell's four nodes two stand at x = 0 and two at x = 0.5
   EXPECT_EQ(held, (std::vector<std::size_t>{0, 0, 2, 2}));

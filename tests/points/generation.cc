@@ -43,7 +43,7 @@ namespace
   std::vector<GeneratedPoint<dim>>
   points_of(const BodyParameters<dim> &body, const unsigned int n_cells)
   {
-    return generate_points<dim>(body, 0, 1., lattice_of<dim>(n_cells), {}, 0);
+    return generate_points<dim>(body, 0, 1., GridLevels<dim>(lattice_of<dim>(n_cells)), {}, 0);
   }
 
   /** Of all points, each like a box of its half-lengths; about the origin. */
@@ -131,7 +131,7 @@ TEST(PointsGeneration, ADiscOfRadiusOneHalfWeighsAQuarterOfPi)
   const auto sum = moments_of<2>(generate_points<2>(body_of<2>("ball(0.805, 2.25; 0.5)", 3),
                                                     0,
                                                     1.,
-                                                    lattice_of<2>(32, 4.),
+                                                    GridLevels<2>(lattice_of<2>(32, 4.)),
                                                     {},
                                                     0));
   EXPECT_NEAR(sum.volume, pi / 4, 1e-6 * pi / 4);

@@ -41,7 +41,7 @@ namespace
   }
 
   const std::vector<LatticeIndex<2>> all_nodes =
-    nodes_of_cells_with_points<2>(metre_cells(),
+    nodes_of_cells_with_points<2>(GridLevels<2>(metre_cells()),
                                   points_at({{.5, .5}, {1.5, .5}, {2.5, .5}, {3.5, .5}}));
 
   /** What is left of what a condition held of two points of masses 3 and 1 that have moved. */

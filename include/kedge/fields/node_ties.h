@@ -1,8 +1,8 @@
 #ifndef kedge_fields_node_ties_h
 #define kedge_fields_node_ties_h
 
+#include <kedge/fields/hanging_nodes.h>
 #include <kedge/fields/node_conditions.h>
-#include <kedge/fields/small_pieces.h>
 #include <kedge/fields/step_points.h>
 
 namespace kedge
@@ -18,6 +18,10 @@ namespace kedge
    * that are too small to fill a cell well are tied by tie_small_pieces(). In matrix form u = C u^;
    * residuals become C^T r, matrices C^T A C. As C reproduces linear fields, both momenta are
    * conserved, and as mass, residual and motion use the same C, so is energy.
+   *
+   * In a refined grid the hanging nodes (hanging_nodes()) are tied likewise, whatever is around
+   * them and whatever is prescribed there, or functions would jump; what they hold counts for
+   * their roots, whose own ties they follow.
    *
    * On a lattice with two intervals along a cell's edge the pore pressure may
    * live at the corners of whole cells alone, the even nodes. It is bilinear
@@ -36,6 +40,7 @@ namespace kedge
       std::vector<double>       weights;
       unsigned int components; ///< bit d: component d is tied (not prescribed); dim: the pressure
       bool         interpolates = false; ///< the pressure between the corners of whole cells
+      bool         hangs        = false; ///< in a refined grid
     };
 
     /**
@@ -133,6 +138,8 @@ namespace kedge
     tie_pressures(const BackgroundGrid<dim>        &grid,
                   const Filling                    &filling,
                   const std::vector<unsigned char> &reached);
+    void
+    tie_hanging(const std::vector<NodeSum> &hanging, const unsigned int components);
     void
     tie_corners_without_motion(const ActiveNodes<dim> &nodes);
     void

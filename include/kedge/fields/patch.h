@@ -106,8 +106,7 @@ namespace kedge
     dealii::Point<dim>
     node_position(const unsigned int node) const
     {
-      return background.lattice().node_position(
-        background.window().node_index(nodes.window_node(node)));
+      return background.node_position(nodes.window_node(node));
     }
 
     StepPoints<dim>     points;

@@ -17,11 +17,6 @@ namespace kedge
     std::vector<unsigned int> n_points; ///< of each piece, on all ranks
   };
 
-  /** Finds the pieces (collective). */
-  template <int dim>
-  Pieces
-  find_pieces(const BackgroundGrid<dim> &grid, const StepPoints<dim> &points);
-
   /** The value of a node as the sum of others. */
   struct NodeSum
   {
@@ -29,6 +24,17 @@ namespace kedge
     std::vector<unsigned int> roots;
     std::vector<double>       weights;
   };
+
+  /**
+   * Finds the pieces (collective).
+   *
+   * @param hanging nodes that join their roots to a piece
+   */
+  template <int dim>
+  Pieces
+  find_pieces(const BackgroundGrid<dim>  &grid,
+              const StepPoints<dim>      &points,
+              const std::vector<NodeSum> &hanging = {});
 
   /**
    * Gives the nodes that are @p left, badly filled ones without a well-filled cell of their piece

@@ -1,7 +1,7 @@
 #ifndef kedge_grid_background_grid_h
 #define kedge_grid_background_grid_h
 
-#include <kedge/grid/lattice.h>
+#include <kedge/grid/grid_levels.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/distributed/tria.h>
@@ -19,7 +19,8 @@ namespace kedge
    * the nodes across ranks. The scene's box may be large and empty;
    * the triangulation covers only a window of it around the material points
    * and is built anew, larger, when they come near its border. Whatever lies
-   * outside the window costs nothing.
+   * outside the window costs nothing. Cells may be refined (GridLevels): the triangulation, and
+   * with it the cells that points are sorted into, stays that of the scene's cells.
    */
   template <int dim>
   class BackgroundGrid
@@ -42,6 +43,15 @@ namespace kedge
     cover(const LatticeWindow<dim> &cells, const std::vector<unsigned int> &weights);
 
     /**
+     * Refines cells, see GridLevels::refine(): one entry per cell of levels().coarsest_cells().
+     * Only on one process.
+     *
+     * @return whether the grid is another than before
+     */
+    bool
+    refine(const std::vector<unsigned char> &wanted);
+
+    /**
      * True if a stencil around a point of @p cell would leave the window
      * although the box goes on there.
      */
@@ -52,19 +62,48 @@ namespace kedge
     const CellIterator &
     cell_iterator(const LatticeIndex<dim> &cell) const
     {
-      return cell_iterators[window_.cell_number(cell)];
+      return cell_iterators[coarsest().cell_number(cell)];
     }
 
+    /** Of the scene's cells. */
     const Lattice<dim> &
     lattice() const
     {
-      return lattice_;
+      return levels_.lattice(0);
     }
 
+    /** What the nodes and cells of all levels have their numbers in. */
     const LatticeWindow<dim> &
     window() const
     {
-      return window_;
+      return levels_.window();
+    }
+
+    const GridLevels<dim> &
+    levels() const
+    {
+      return levels_;
+    }
+
+    /** Whether some cells are finer than others. */
+    bool
+    is_refined() const
+    {
+      return levels_.size() > 1;
+    }
+
+    /** Whether the window holds a cell of the scene. */
+    bool
+    covers(const LatticeIndex<dim> &cell) const
+    {
+      return coarsest().contains_cell(cell);
+    }
+
+    /** Place of a node of the window [m]. */
+    dealii::Point<dim>
+    node_position(const unsigned int window_node) const
+    {
+      return levels_.position(window_node);
     }
 
     const dealii::Triangulation<dim> &
@@ -85,11 +124,11 @@ namespace kedge
       return communicator_;
     }
 
-    /** Rank that owns a cell of the window. */
+    /** Rank that owns a cell of the window, of any level. */
     unsigned int
     cell_owner(const LatticeIndex<dim> &cell) const
     {
-      return cell_owners[window_.cell_number(cell)];
+      return cell_owners[window().cell_number(cell)];
     }
 
     /** Rank that owns a node of the window. */
@@ -99,7 +138,7 @@ namespace kedge
       return node_owners[window_node];
     }
 
-    /** Counts the calls of cover(); what depends on the window watches it. */
+    /** Counts the windows; what depends on the numbers in them watches it. */
     unsigned int
     generation() const
     {
@@ -107,6 +146,11 @@ namespace kedge
     }
 
   private:
+    const LatticeWindow<dim> &
+    coarsest() const
+    {
+      return levels_.coarsest_cells();
+    }
     bool
     parallel() const
     {
@@ -124,10 +168,9 @@ namespace kedge
     void
     tabulate_node_owners();
 
-    const Lattice<dim>                          lattice_;
+    GridLevels<dim>                             levels_;
     const MPI_Comm                              communicator_;
     const dealii::MappingCartesian<dim>         mapping_;
-    LatticeWindow<dim>                          window_;
     unsigned int                                n_refinements = 0;
     unsigned int                                generation_   = 0;
     dealii::FESystem<dim>                       element;

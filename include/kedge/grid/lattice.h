@@ -82,6 +82,16 @@ namespace kedge
       return x;
     }
 
+    /** [m^3; m^2 in 2D] */
+    double
+    cell_volume() const
+    {
+      double volume = 1.;
+      for (int d = 0; d < dim; ++d)
+        volume *= h[d];
+      return volume;
+    }
+
     double
     smallest_cell_size() const
     {

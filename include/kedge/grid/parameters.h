@@ -18,7 +18,8 @@ namespace kedge
     dealii::Tensor<1, dim>        extent;
     std::array<unsigned int, dim> n_cells;
     unsigned int                  node_intervals =
-      1; ///< between the ends of a cell's edge; elements of second order: 2
+      1;                    ///< between the ends of a cell's edge; elements of second order: 2
+    std::string refinement; ///< how often cells are halved, expression of x, y, z; empty: never
   };
 
   /** What a node condition does with one displacement component. */

@@ -47,7 +47,7 @@ namespace kedge
   std::vector<std::size_t>
   count_held_nodes(const std::vector<NodeConditionParameters<dim>> &conditions,
                    const std::map<std::string, double>             &constants,
-                   const Lattice<dim>                              &lattice,
+                   const GridLevels<dim>                           &levels,
                    const std::vector<PointOrigin<dim>>             &points);
 } // namespace kedge
 

@@ -9,10 +9,10 @@ namespace kedge
 {
   // Node conditions stay with the nodes of the grid, material does not, and places are not nodes.
 
-  /** The nodes of the cells that hold material points, sorted, each once. */
+  /** The nodes of the cells that hold material points, sorted, each once, on the finest lattice. */
   template <int dim>
   std::vector<LatticeIndex<dim>>
-  nodes_of_cells_with_points(const Lattice<dim>                  &lattice,
+  nodes_of_cells_with_points(const GridLevels<dim>               &levels,
                              const std::vector<PointOrigin<dim>> &points);
 
   /**

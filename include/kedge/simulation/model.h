@@ -123,9 +123,12 @@ namespace kedge
     add_term(std::unique_ptr<T> term);
     void
     declare();
+    double
+    smallest_cell_size() const;
     void
     check_overlaps() const;
 
+    const GridLevels<dim>                 levels_at_start; ///< before there are points
     std::vector<PointOrigin<dim>>         generated;
     std::vector<std::string>              stress_notes;
     std::vector<const SurfaceTerm<dim> *> surface_terms; ///< come first

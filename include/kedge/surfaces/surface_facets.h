@@ -75,13 +75,13 @@ namespace kedge
     struct Candidate
     {
       SurfacePoint<dim> point;
-      LatticeIndex<dim> cell; ///< that it belongs to: below the facet
+      LatticeIndex<dim> cell; ///< of the window that it belongs to: below the facet
     };
 
     static void
     choose_parts(Chosen &chosen);
     static std::vector<Candidate>
-    candidates_on(const Chosen &here, const Lattice<dim> &lattice);
+    candidates_on(const Chosen &here, const GridLevels<dim> &levels);
 
     std::vector<Chosen> chosen;
   };
