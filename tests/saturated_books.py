@@ -83,7 +83,8 @@ def main():
         (plane, 2, 1e-12, ["Pore fluid/Stabilisation = 0"]),
         (plane, 2, 1e-12, ["Pore fluid/Conductivity law = kozeny-carman"]),
         (plane, 2, 1e-12, ["Materials/skeleton/Model = von_mises", "Materials/skeleton/Uniaxial yield stress sigma_y = 2e4"]),
-        (plane, 2, 1e-8, ["Constants/cfl = 100"]),
+        (plane, 2, 1e-12, ["Constants/cfl = 20"]),
+        (plane, 2, 1e-12, ["Constants/cfl = 100"]),
         (solid, 3, 1e-12, []),
         (solid, 3, 1e-12, ["Bodies/block/Basis = linear", "Constants/cfl = 1"]),
     ]

@@ -132,6 +132,10 @@ kedge_add_scene_test(scene.terzaghi prm/terzaghi.prm COMPARE_RANKS 1e-8)
 # early, water carries 1 - 1/(1 + n0 M/2.2e9) = 1.4e-3 of the load less than the series says
 kedge_add_scene_test(scene.terzaghi.early prm/terzaghi.prm
   SET "Constants/T = 0.02" "Constants/dt = 0.01" "Constants/tolerance = 2e-3")
+# a load that grows over ten steps: the conserving scheme is more accurate than backward Euler at equal steps (2.4e-4)
+kedge_add_scene_test(scene.terzaghi.conserving prm/terzaghi.prm
+  SET "Time/Scheme = clc-midpoint" "Constants/ramp = 0.01" "Constants/T = 0.5"
+    "Constants/tolerance = 6e-4" "Output/Points interval = 0")
 # the errors that terzaghi.prm counts for T = 1 are 3.0e-4 and 3.3e-4 here
 kedge_add_scene_test(scene.terzaghi.linear prm/terzaghi.prm
   SET "Constants/T = 0.2" "Constants/tolerance = 8e-4" "Bodies/column/Basis = linear")
@@ -149,6 +153,7 @@ kedge_add_scene_test(refusal.pieces_named prm/pieces_apart.prm EXPECT_EXIT 1
   SET "Point loads/pull/Place = 1.7, 2.1" "Point loads/pull/Force = 1; 0" "Point loads/pull/Body = blocks"
   EXPECT_STDERR "Pieces = apart .*Point loads/pull does not say which" LABELS refusal)
 # drained at curved surfaces, a quarter and an eighth of which lie in the grid
+kedge_add_scene_test(scene.mandel prm/mandel.prm)
 kedge_add_scene_test(scene.drained_cylinder prm/drained_cylinder.prm)
 kedge_add_scene_test(scene.drained_cylinder.ranks prm/drained_cylinder.prm RANKS 2)
 kedge_add_scene_test(scene.drained_sphere prm/drained_sphere.prm)

@@ -15,6 +15,19 @@ kedge_add_scene_test(scene.biot_column prm/biot_column.prm COMPARE_RANKS 1e-7)
 kedge_add_scene_test(scene.rock_wave prm/rock_wave.prm)
 kedge_add_scene_test(scene.falling_soil.conserving prm/falling_soil.prm
   SET "Time/Scheme = clc-midpoint")
+kedge_add_scene_test(scene.mandel.conserving prm/mandel.prm SET "Time/Scheme = clc-midpoint")
+kedge_add_scene_test(scene.saturated_tumbling.cfl prm/saturated_tumbling.prm
+  SET "Time/Step = 5 cfl" "Constants/steps = 10")
+kedge_add_scene_test(refusal.saturated_initial_cfl prm/saturated_tumbling.prm
+  SET "Time/Step = 5 initial cfl" EXPECT_EXIT 1
+  EXPECT_STDERR "Time/Step.*FACTOR cfl or FACTOR density cfl" LABELS refusal)
+kedge_add_scene_test(refusal.pore_pressure_beyond_fluid prm/saturated_tumbling.prm
+  SET "Bodies/block/Initial pore pressure = 2*K_f" EXPECT_EXIT 1
+  EXPECT_STDERR "Initial pore pressure: 2e.* stands no more than that" LABELS refusal)
+# no pores are left: the cause is told by itself
+kedge_add_scene_test(scene.gibson.conserving prm/gibson.prm
+  SET "Time/Scheme = clc-midpoint" "Output/Points interval = 0" EXPECT_EXIT 2 EXPECT_STDERR "^$"
+  EXPECT_STDOUT "stopped at t = [0-9.]+ s: material point")
 kedge_add_restart_test(scene.restart.biot_column prm/biot_column.prm KILLS 1
   SET "Constants/n = 20" "Constants/dt = 1e-3" "Output/Checkpoint every steps = 5")
 kedge_add_scene_test(refusal.conserving_coarse prm/saturated_tumbling.prm

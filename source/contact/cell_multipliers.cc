@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace kedge
 {
@@ -81,28 +82,52 @@ namespace kedge
 
 
   template <int dim>
-  double
-  CellMultipliers<dim>::largest_gap() const
+  std::pair<double, LatticeIndex<dim>>
+  CellMultipliers<dim>::worst_gap() const
   {
-    double largest = 0.;
+    std::pair<double, LatticeIndex<dim>> worst{0., {}};
     for (const auto &[cell, gap] : gaps)
-      largest = std::max(largest, std::abs(gap.sum) / gap.area);
-    return largest;
+      if (const double mean = std::abs(gap.sum) / gap.area; mean > worst.first)
+        worst = {mean, cell.first};
+    return worst;
   }
 
 
 
   template <int dim>
-  double
-  CellMultipliers<dim>::largest_creep() const
+  std::pair<double, LatticeIndex<dim>>
+  CellMultipliers<dim>::worst_creep() const
   {
-    double largest = 0., largest_area = 0.;
+    std::pair<double, LatticeIndex<dim>> worst{0., {}};
+    double                               largest_area = 0.;
     for (const auto &[node, creep] : creeps)
       {
-        largest      = std::max(largest, creep.sum.norm());
+        if (creep.sum.norm() > worst.first)
+          worst = {creep.sum.norm(), node.first};
         largest_area = std::max(largest_area, creep.area);
       }
-    return largest_area > 0. ? largest / largest_area : 0.;
+    if (largest_area > 0.)
+      worst.first /= largest_area;
+    return worst;
+  }
+
+
+
+  template <int dim>
+  std::string
+  CellMultipliers<dim>::left() const
+  {
+    const double cell_size   = lattice.smallest_cell_size();
+    const auto [gap, cell]   = worst_gap();
+    const auto [creep, node] = worst_creep();
+    std::ostringstream text;
+    if (gap > smallest_gap * cell_size)
+      text << "gaps of " << gap << " m, " << smallest_gap * cell_size
+           << " m allowed, in the cell from (" << lattice.node_position(cell) << ") on";
+    else if (creep > smallest_creep * cell_size)
+      text << "creep of " << creep << " m, " << smallest_creep * cell_size
+           << " m allowed, of what sticks around (" << lattice.node_position(node) << ")";
+    return text.str();
   }
 
 

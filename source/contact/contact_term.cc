@@ -113,7 +113,8 @@ namespace kedge
   void
   ContactTerm<dim>::start(Trial<dim> &trial)
   {
-    n_passes = n_updates = n_tangents = n_follows = 0;
+    directions.start();
+    uzawa.start();
     for (auto &surface : surfaces)
       {
         surface->means.reset(surface->surface);
@@ -210,12 +211,9 @@ namespace kedge
       return {};
     move_surfaces(trial);
     // at rest nothing is predicted, and bodies that are barely held must not be pushed about
-    if (!at_rest && n_follows < std::min(n_tangents, most_follows))
-      {
-        n_follows = n_tangents;
-        for (auto &half : passes)
-          half.find_anew();
-      }
+    if (!at_rest && directions.follow())
+      for (auto &half : passes)
+        half.find_anew();
     for (const auto &half : passes)
       {
         const BodySurface<dim> &sampled = half.sampled.surface, &other = half.other.surface;
@@ -240,7 +238,7 @@ namespace kedge
   void
   ContactTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    ++n_tangents;
+    directions.count_tangent();
     if (!touches())
       return;
     move_surfaces(trial);
@@ -275,6 +273,8 @@ namespace kedge
   Answer
   ContactTerm<dim>::finish(const Trial<dim> &trial)
   {
+    if (const std::string left = uzawa.failure(); !left.empty())
+      return Answer::failure(name() + ": " + left);
     move_surfaces(trial);
     released = 0.;
     for (std::size_t k = 0; k < passes.size(); ++k)

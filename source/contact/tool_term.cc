@@ -101,7 +101,8 @@ namespace kedge
   void
   ToolTerm<dim>::start(Trial<dim> &trial)
   {
-    n_passes = n_updates = n_tangents = n_follows = 0;
+    directions.start();
+    uzawa.start();
     for (const auto &side : sides)
       {
         side->begin_step();
@@ -149,12 +150,9 @@ namespace kedge
   {
     move(trial);
     // at rest nothing is predicted, and bodies that are barely held must not be pushed about
-    if (!at_rest && n_follows < std::min(n_tangents, most_follows))
-      {
-        n_follows = n_tangents;
-        for (const auto &side : sides)
-          side->find_anew();
-      }
+    if (!at_rest && directions.follow())
+      for (const auto &side : sides)
+        side->find_anew();
     for (const auto &side : sides)
       for (const Sample &sample : side->samples)
         {
@@ -177,7 +175,7 @@ namespace kedge
   void
   ToolTerm<dim>::add_tangent(const Trial<dim> &trial, Tangent<dim> &tangent)
   {
-    ++n_tangents;
+    directions.count_tangent();
     move(trial);
     const bool to_be_held = at_rest && !presses();
     for (const auto &side : sides)
@@ -251,6 +249,8 @@ namespace kedge
   Answer
   ToolTerm<dim>::finish(const Trial<dim> &trial)
   {
+    if (const std::string left = uzawa.failure(); !left.empty())
+      return Answer::failure(name() + ": " + left);
     move(trial);
     released = 0.;
     places.clear();

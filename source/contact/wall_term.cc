@@ -142,7 +142,7 @@ namespace kedge
     const double t_n = trial.times.t_n;
     plane            = plane_at(t_n);
     moves_by         = motion.displacement(t_n + trial.times.dt) - motion.displacement(t_n);
-    n_updates        = 0;
+    uzawa.start();
     for (Side &side : sides)
       {
         side.means.reset(*side.surface);
@@ -286,6 +286,8 @@ namespace kedge
   Answer
   WallTerm<dim>::finish(const Trial<dim> &trial)
   {
+    if (const std::string left = uzawa.failure(); !left.empty())
+      return Answer::failure(name() + ": " + left);
     move(trial);
     released = 0.;
     places.clear();

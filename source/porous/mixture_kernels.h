@@ -98,6 +98,7 @@ namespace kedge
       Pack       inverse[dim][dim];
       const Pack growth = invert_gradient<dim>(trial.displacement, 1., inverse);
       r                 = MixtureResponse<dim, Pack>{};
+      r.has_stress      = stress.valid;
       r.valid           = stress.valid && growth > -1.;
       r.end_determinant = trial.determinant * (1. + growth);
       const Pack V      = trial.volume;
@@ -213,7 +214,11 @@ namespace kedge
             respond<false>(b, slots, lanes.trial, r);
             status.failed_slot = slots.first_failure(r.valid, PointStatus::none);
             if (!status.ok())
-              return;
+              {
+                const unsigned int of_law = slots.first_failure(r.has_stress, PointStatus::none);
+                status.has_stress         = of_law != status.failed_slot;
+                return;
+              }
             evaluate_size(lanes.trial, r, pack_terms);
             begin += slots.count;
             for (unsigned int lane = 0; lane < slots.count; ++lane)
@@ -262,10 +267,11 @@ namespace kedge
 
       static constexpr int max_tests = dim + 2;
 
-      static constexpr int
-      n_tests(const int)
+      /** Without stabilisation its test has no part in any row. */
+      int
+      n_tests(const int) const
       {
-        return dim + 2;
+        return r.stabilisation_slope[lane] != 0. ? dim + 2 : dim + 1;
       }
 
       const double *

@@ -152,7 +152,7 @@ namespace kedge
         this->template respond<false>(v.trial, r);
         if (!r.valid[0])
           {
-            status.failed_slot = this->face.slot;
+            status = {this->face.slot, r.has_stress[0]};
             return;
           }
         double volume = this->volume(v, r);

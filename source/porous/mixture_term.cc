@@ -1,4 +1,5 @@
 #include <kedge/porous/mixture_term.h>
+#include <kedge/solid/point_failure.h>
 #include <kedge/transfer/node_sums.h>
 
 #include <algorithm>
@@ -246,9 +247,18 @@ namespace kedge
     residual.add_square(size.momentum);
     residual.add_square(volume_weight * volume_weight * size.fluid);
     residual.add_square(volume_weight * volume_weight * supplied);
-    return status.ok() ? Answer()
-                       : Answer::failure(patch.describe_point(status.failed_slot) +
-                                         " has det F <= 0, no pores left or no finite stress");
+    if (status.ok())
+      return {};
+    std::vector<double> grains;
+    for (const Soil &soil : bodies.soils)
+      grains.push_back(soil.dry_storage > 0. ? 0. : 1. - soil.fluid.initial_porosity);
+    return Answer::failure(
+      describe_failure(patch,
+                       status.failed_slot,
+                       trial.displacement(field),
+                       scheme.alpha_f,
+                       grains,
+                       status.has_stress ? "no finite pore pressure" : "no finite stress"));
   }
 
 

@@ -1,5 +1,6 @@
 #include <kedge/porous/porous_term.h>
 #include <kedge/solid/load_columns.h>
+#include <kedge/solid/point_failure.h>
 
 namespace kedge
 {
@@ -226,8 +227,12 @@ namespace kedge
     residual.add_square(volume_weight * volume_weight * size.fluid);
     residual.add_square(volume_weight * volume_weight * supplied);
     return status.ok() ? Answer()
-                       : Answer::failure(patch.describe_point(status.failed_slot) +
-                                         " has det F <= 0 or no finite stress");
+                       : Answer::failure(describe_failure(patch,
+                                                          status.failed_slot,
+                                                          trial.displacement(field),
+                                                          scheme.alpha_f,
+                                                          {},
+                                                          "no finite stress"));
   }
 
 

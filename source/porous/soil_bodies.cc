@@ -1,6 +1,10 @@
+#include <kedge/base/exceptions.h>
 #include <kedge/base/expression.h>
 #include <kedge/porous/porous_force.h>
 #include <kedge/porous/soil_bodies.h>
+
+#include <cmath>
+#include <sstream>
 
 namespace kedge
 {
@@ -24,7 +28,17 @@ namespace kedge
         for (int d = 0; d < dim; ++d)
           x[d] = point.record.location[d];
         state.pore_pressure = pressure[body](x);
-        state.porosity      = fluid.initial_porosity;
+        if (!(std::abs(state.pore_pressure) <= fluid.bulk_modulus))
+          {
+            std::ostringstream message;
+            message << "Bodies/" << bodies.names[body]
+                    << "/Initial pore pressure: " << state.pore_pressure << " Pa at ("
+                    << point.record.location
+                    << "), but a fluid of Pore fluid/Bulk modulus = " << fluid.bulk_modulus
+                    << " Pa stands no more than that.";
+            throw UserError(message.str());
+          }
+        state.porosity = fluid.initial_porosity;
         state.mass *= 1. - state.porosity;
         if (bodies.soils[body].dry_storage == 0.)
           state.mass +=

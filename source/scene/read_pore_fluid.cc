@@ -43,9 +43,14 @@ namespace kedge
           .error("Scheme",
                  "Saturated bodies (Pore fluid) go with clc-midpoint, quasi-static, newmark, "
                  "trapezoidal and midpoint.");
-      if (scene.time.step_kind != StepSizeKind::fixed)
+      const bool of_nodes = scene.time.step_kind == StepSizeKind::cfl_nodal ||
+                            scene.time.step_kind == StepSizeKind::cfl_density;
+      if (scene.time.step_kind != StepSizeKind::fixed &&
+          !(of_nodes && scheme == SchemeKind::clc_midpoint))
         throw SectionReader(reader, {"Time"})
-          .error("Step", "Saturated bodies (Pore fluid) need a fixed step.");
+          .error("Step",
+                 "Saturated bodies (Pore fluid) need a size in seconds or, with Scheme = "
+                 "clc-midpoint, a FACTOR cfl or FACTOR density cfl, of the skeleton's waves.");
       for (const auto &body : scene.bodies)
         {
           const MaterialParameters &material = scene.materials[body.material];

@@ -1,3 +1,4 @@
+#include <kedge/solid/point_failure.h>
 #include <kedge/solid/solid_term.h>
 #include <kedge/stress/viscous_stress.h>
 #include <kedge/transfer/node_sums.h>
@@ -101,8 +102,12 @@ namespace kedge
                                                         residual.partial(field),
                                                         viscous_moduli(trial.times.dt));
     return status.ok() ? Answer()
-                       : Answer::failure(patch.describe_point(status.failed_slot) +
-                                         " has det F <= 0 or no finite stress");
+                       : Answer::failure(describe_failure(patch,
+                                                          status.failed_slot,
+                                                          trial.displacement(field),
+                                                          internal_force.alpha(),
+                                                          {},
+                                                          "no finite stress"));
   }
 
 

@@ -411,21 +411,6 @@ namespace kedge
 
   template <int dim>
   void
-  BodySurface<dim>::add_force(const unsigned int            vertex,
-                              const dealii::Tensor<1, dim> &force,
-                              std::vector<double>          &sums) const
-  {
-    const std::size_t n_components = patch.n_components();
-    for_nodes(vertex, [&](const unsigned int node, const double N) {
-      for (int d = 0; d < dim; ++d)
-        sums[node * n_components + d] += N * force[d];
-    });
-  }
-
-
-
-  template <int dim>
-  void
   BodySurface<dim>::move(const std::vector<dealii::Tensor<1, dim>> &displacements)
   {
     moved = committed;

@@ -93,28 +93,6 @@ TYPED_TEST(SurfacesBodySurface, VerticesFollowLinearMotionsAndSumToOne)
     }
 }
 
-TYPED_TEST(SurfacesBodySurface, AForceKeepsItsResultantAndMoment)
-{
-  constexpr int          dim = TypeParam::value;
-  const CarriedBox<dim>  box;
-  std::vector<double>    sums(std::size_t(box.patch.nodes.n_local()) * dim, 0.);
-  dealii::Tensor<1, dim> force, resultant;
-  for (int d = 0; d < dim; ++d)
-    force[d] = 1. + d;
-  box.surface.add_force(1, force, sums);
-  dealii::Tensor<2, dim> moments, expected = outer_product(box.surface.mesh().vertices[1], force);
-  for (unsigned int i = 0; i < box.patch.nodes.n_local(); ++i)
-    {
-      dealii::Tensor<1, dim> at_node;
-      for (int d = 0; d < dim; ++d)
-        at_node[d] = sums[i * dim + d];
-      resultant += at_node;
-      moments += outer_product(box.patch.node_position(i), at_node);
-    }
-  EXPECT_NEAR((resultant - force).norm(), 0., 1e-14);
-  EXPECT_NEAR((moments - expected).norm(), 0., 1e-13);
-}
-
 TYPED_TEST(SurfacesBodySurface, ASavedSurfaceIsTheSameBitForBit)
 {
   constexpr int                       dim = TypeParam::value;

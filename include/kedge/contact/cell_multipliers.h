@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace kedge
@@ -56,9 +57,19 @@ namespace kedge
     /** Of all cells the largest mean gap; of all nodes the largest sum of c_I A_I over the largest
      * A_I, the area that sticks: what little sticks at an edge counts for little [m]. */
     double
-    largest_gap() const;
+    largest_gap() const
+    {
+      return worst_gap().first;
+    }
     double
-    largest_creep() const;
+    largest_creep() const
+    {
+      return worst_creep().first;
+    }
+
+    /** What is larger than it may be, and where; empty: nothing. */
+    std::string
+    left() const;
 
     /** Gives all places their new multipliers, and those that press the slips that hold them. */
     void
@@ -90,6 +101,12 @@ namespace kedge
       dealii::Tensor<1, dim> sum; ///< [m^3]
     };
 
+    /** The largest gap and its cell, the largest creep and its node. */
+    std::pair<double, LatticeIndex<dim>>
+    worst_gap() const;
+    std::pair<double, LatticeIndex<dim>>
+    worst_creep() const;
+
     /** Calls f(key, N) for the nodes of the cell of a place. */
     template <typename F>
     void
@@ -101,32 +118,64 @@ namespace kedge
     std::map<Key, Creep> creeps; ///< by node
   };
 
-  /**
-   * Uzawa's step of a contact at rest.
-   *
-   * @param sides    what may not be pressed by the same multipliers
-   * @param add_side add_side(side, cells) adds the places of a side
-   * @return false, and nothing is changed, if gaps and creep are as small as they must be
-   */
-  template <int dim, class Sides, typename AddSide>
-  bool
-  update_multipliers(Sides &sides, const Lattice<dim> &lattice, const AddSide &add_side)
+  /** Uzawa's iteration of a contact at rest: a step of it after each solution of the equations. */
+  template <int dim>
+  class UzawaIteration
   {
-    std::vector<CellMultipliers<dim>> cells(sides.size(), CellMultipliers<dim>(lattice));
-    const double                      cell_size = lattice.smallest_cell_size();
-    bool                              is_held   = true;
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      {
-        add_side(sides[k], cells[k]);
-        is_held = is_held && cells[k].largest_gap() <= cells[k].smallest_gap * cell_size &&
-                  cells[k].largest_creep() <= cells[k].smallest_creep * cell_size;
-      }
-    if (is_held)
-      return false;
-    for (const auto &of_side : cells)
-      of_side.update();
-    return true;
-  }
+  public:
+    static constexpr unsigned int most_updates = 40;
+
+    void
+    start()
+    {
+      n_updates = 0;
+      left.clear();
+    }
+
+    /**
+     * @param sides     what may not be pressed by the same multipliers
+     * @param bodies_of bodies_of(side) names the bodies that touch there
+     * @param add_side  add_side(side, cells) adds the places of a side
+     * @return false, and nothing is changed, if gaps and creep are as small as they must be or
+     *         there were too many steps
+     */
+    template <class Sides, typename BodiesOf, typename AddSide>
+    bool
+    step(Sides              &sides,
+         const Lattice<dim> &lattice,
+         const BodiesOf     &bodies_of,
+         const AddSide      &add_side)
+    {
+      std::vector<CellMultipliers<dim>> cells;
+      left.clear();
+      for (auto &side : sides)
+        {
+          cells.emplace_back(lattice);
+          add_side(side, cells.back());
+          if (const std::string here = cells.back().left(); left.empty() && !here.empty())
+            left = bodies_of(side) + ": " + here;
+        }
+      if (left.empty() || n_updates == most_updates)
+        return false;
+      for (const auto &of_side : cells)
+        of_side.update();
+      ++n_updates;
+      return true;
+    }
+
+    /** Why the step cannot be taken: what the last update has left, if it is too much. */
+    std::string
+    failure() const
+    {
+      return left.empty() ? ""
+                          : left + ", are left after " + std::to_string(most_updates) +
+                              " updates of the contact's forces";
+    }
+
+  private:
+    unsigned int n_updates = 0;
+    std::string  left;
+  };
 } // namespace kedge
 
 #endif

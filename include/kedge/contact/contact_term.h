@@ -1,8 +1,10 @@
 #ifndef kedge_contact_contact_term_h
 #define kedge_contact_contact_term_h
 
+#include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/contact_picture.h>
 #include <kedge/contact/coupling_sum.h>
+#include <kedge/contact/direction_updates.h>
 #include <kedge/contact/parameters.h>
 #include <kedge/contact/surface_samples.h>
 #include <kedge/equations/term.h>
@@ -43,13 +45,6 @@ namespace kedge
     /** Bodies at rest that do not press yet are held, in the first tangent, where gaps are smaller
      * than this part of a cell. */
     static constexpr double nearly_closed = 0.05;
-
-    /** How often at most the directions follow the first corrections of Newton's method, how
-     * often after its end they are taken anew, and multipliers. */
-    static constexpr unsigned int most_follows = 2, most_passes = 3, most_updates = 40;
-
-    /** A change of the contact's forces by less than this part of them is let be. */
-    static constexpr double small_change = 1e-3;
 
     /**
      * @param bodies    each of one group with each of the other
@@ -134,10 +129,6 @@ namespace kedge
                        CouplingSum<dim>                              &sum) const;
     std::vector<Forces>
     sample_forces() const;
-    bool
-    directions_have_changed();
-    bool
-    update_multipliers();
     void
     move_surfaces(const Trial<dim> &trial);
     bool
@@ -157,8 +148,8 @@ namespace kedge
     std::vector<Memory>              end_of_step;
     std::vector<ContactPlace<dim>>   places, committed_places; ///< of the attempt, of the last step
     double                           released = 0.;            ///< energy lost track of [J]
-    unsigned int                     n_passes = 0, n_updates = 0;
-    unsigned int                     n_tangents = 0, n_follows = 0;
+    DirectionUpdates                 directions;
+    UzawaIteration<dim>              uzawa;
     ContactBooks<dim>                books;
   };
 } // namespace kedge

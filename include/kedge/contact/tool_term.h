@@ -2,6 +2,7 @@
 #define kedge_contact_tool_term_h
 
 #include <kedge/contact/contact_picture.h>
+#include <kedge/contact/direction_updates.h>
 #include <kedge/contact/tool_edges.h>
 #include <kedge/contact/tool_penetration.h>
 #include <kedge/contact/tool_samples.h>
@@ -26,11 +27,6 @@ namespace kedge
   public:
     /** As of ContactTerm: in parts of a cell. */
     static constexpr double reach = 1., largest_overlap = 0.5, nearly_closed = 0.05;
-
-    static constexpr unsigned int most_follows = 2, most_passes = 3, most_updates = 40;
-
-    /** A change of the forces by less than this part of them is let be. */
-    static constexpr double small_change = 1e-3;
 
     /**
      * @param touching  bodies whose surfaces may meet the tool
@@ -105,10 +101,6 @@ namespace kedge
     presses() const;
     std::vector<std::vector<dealii::Tensor<1, dim>>>
     forces() const;
-    bool
-    directions_have_changed();
-    bool
-    update_multipliers();
     void
     add_sample(const ToolSide<dim>        &side,
                const Sample               &sample,
@@ -133,9 +125,10 @@ namespace kedge
     /** Of each body two: its surface's facets and the tool's edges. */
     std::vector<std::unique_ptr<ToolSide<dim>>> sides;
     std::vector<ContactPlace<dim>> places, committed_places; ///< of the attempt, of the last step
-    double            released = 0.; ///< energy of samples that no longer look here [J]
-    unsigned int      n_passes = 0, n_updates = 0, n_tangents = 0, n_follows = 0;
-    ContactBooks<dim> books;
+    double              released = 0.; ///< energy of samples that no longer look here [J]
+    DirectionUpdates    directions;
+    UzawaIteration<dim> uzawa;
+    ContactBooks<dim>   books;
     std::unique_ptr<ToolPenetration<dim>> penetration;
   };
 } // namespace kedge

@@ -3,6 +3,7 @@
 
 #include <kedge/base/expression.h>
 #include <kedge/base/load_program.h>
+#include <kedge/contact/cell_multipliers.h>
 #include <kedge/contact/closed_contact.h>
 #include <kedge/contact/contact_picture.h>
 #include <kedge/contact/coupling_sum.h>
@@ -80,8 +81,6 @@ namespace kedge
 
     /** Facets look towards the wall whose normals have at least this part against it. */
     static constexpr double towards = 0.05;
-
-    static constexpr unsigned int most_updates = 40;
 
     /** Numbers that a checkpoint holds of a closed facet. */
     static constexpr std::size_t width_of_record = 3 + dim;
@@ -206,10 +205,10 @@ namespace kedge
     ShearLimit<dim>                shear_limit;
     std::vector<Side>              sides;                    ///< one per body
     std::vector<ContactPlace<dim>> places, committed_places; ///< of the attempt, of the last step
-    double            released  = 0.; ///< energy of samples that no longer look here [J]
-    unsigned int      n_updates = 0;
-    ContactBooks<dim> books;
-    Ledger::Index     work = 0; ///< of the wall, if it moves
+    double              released = 0.; ///< energy of samples that no longer look here [J]
+    UzawaIteration<dim> uzawa;
+    ContactBooks<dim>   books;
+    Ledger::Index       work = 0; ///< of the wall, if it moves
   };
 } // namespace kedge
 

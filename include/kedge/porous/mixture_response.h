@@ -20,7 +20,7 @@ namespace kedge
   {
     using Slopes = MixtureSlopes<dim, Number>;
 
-    Condition<Number> valid;
+    Condition<Number> valid, has_stress; ///< whether there is an answer; from the law
     Number            momentum_gradient[dim][dim], momentum_value[dim];
     Number            fluid_gradient[dim], fluid_value, stabilisation;
     Slopes            momentum_gradient_slope[dim][dim], momentum_value_slope[dim];
@@ -285,7 +285,8 @@ namespace kedge
                             MixtureResponse<dim, Number>    &r)
   {
     RelativeMotion<dim, Number> flow(step, trial);
-    r.valid = stress.valid && flow.is_possible();
+    r.has_stress = stress.valid;
+    r.valid      = stress.valid && flow.is_possible();
     if (!any(r.valid))
       return;
     r.valid = r.valid && flow.solve();

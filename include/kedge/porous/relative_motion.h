@@ -162,12 +162,12 @@ namespace kedge
     void
     change_content()
     {
-      using std::exp;
       using std::expm1;
-      const Number end_density = density_n * exp(density_growth);
+      const Number densified   = expm1(density_growth); // rho_{n+1}/rho_n - 1
+      const Number end_density = density_n + density_n * densified;
       content.end              = at.end_pores * end_density;
-      content.change           = end_density * (trial.determinant * at.growth) +
-                       at.pores_n * density_n * expm1(density_growth);
+      content.change =
+        end_density * (trial.determinant * at.growth) + at.pores_n * density_n * densified;
       content.mean = content.at_n + 0.5 * content.change;
     }
 

@@ -69,7 +69,7 @@ namespace kedge
         Row column[Point::max_tests];
         for (int p = 0; p < n_components; ++p)
           {
-            const int n_tests = Point::n_tests(p);
+            const int n_tests = point.n_tests(p);
             for (int T = 0; T < n_tests; ++T)
               {
                 double of_node[n_components][n], together[n_packs * width] = {};

@@ -15,6 +15,7 @@ namespace kedge
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     unsigned int failed_slot = none; ///< first point whose det F <= 0 or whose stress is not finite
+    bool         has_stress  = false; ///< whether it fails though its law has an answer
 
     bool
     ok() const

@@ -179,12 +179,6 @@ namespace kedge
     Root
     root_at(const LatticeIndex<dim> &cell, const unsigned int nearest_vertex) const;
 
-    /** Adds a force on a vertex to nodal sums of the patch's components per local node. */
-    void
-    add_force(const unsigned int            vertex,
-              const dealii::Tensor<1, dim> &force,
-              std::vector<double>          &sums) const;
-
     /** Where a step would bring the vertices, and what would become of the facets. */
     void
     move(const std::vector<dealii::Tensor<1, dim>> &displacements);
