@@ -339,6 +339,8 @@ namespace kedge
       errors.attempt([&]() {
         set_elements(reader, scene);
         check_refinement(reader, scene);
+        scene.newton.to_round_off =
+          scene.pore_fluid && scene.time.scheme == SchemeKind::clc_midpoint;
       });
       errors.attempt([&]() {
         for (const ContactParameters &contact : scene.contacts)

@@ -18,7 +18,8 @@ namespace kedge
     /** A residual that has grown by this factor will not come back. */
     constexpr double divergence = 1e8;
 
-    /** A polish is solved for so that it may leave a tenth of this part of the residual's terms. */
+    /** Below this part of its terms a residual needs no polish: energy drifts by less, but in steps
+     * of saturated soil far beyond the waves. */
     constexpr double polished = 1e-13;
 
     /**
@@ -106,7 +107,10 @@ namespace kedge
      * @return whether another one may help too
      */
     bool
-    polish(NewtonProblem &problem, NewtonProblem::Evaluation &evaluation, NewtonReport &report)
+    polish(NewtonProblem             &problem,
+           const bool                 to_round_off,
+           NewtonProblem::Evaluation &evaluation,
+           NewtonReport              &report)
     {
       double norm = 0.;
       problem.set_linear_tolerance(tolerance_of_polish(evaluation));
@@ -126,7 +130,7 @@ namespace kedge
       evaluation        = attempt;
       report.residual_norms.push_back(attempt.residual_norm);
       report.correction_norms.push_back(norm);
-      return gain > 4.;
+      return gain > 4. && (to_round_off || attempt.residual_norm > polished * attempt.scale);
     }
 
     std::string
@@ -249,7 +253,7 @@ namespace kedge
           {
             report.converged = true;
             for (unsigned int k = 0; k < most_polishes && !at_round_off(); ++k)
-              if (!polish(problem, evaluation, report))
+              if (!polish(problem, parameters.to_round_off, evaluation, report))
                 break;
             if (evaluation.residual_norm <= accurate * evaluation.scale ||
                 n_added++ == most_iterations_added)

@@ -8,6 +8,7 @@ namespace kedge
     double       tolerance      = 1e-11; ///< of criterion (3.185) [-]
     unsigned int max_iterations = 20;
     bool         log            = false; ///< write newton.csv: every residual and correction
+    bool to_round_off = false; ///< corrections with the last tangent go on as long as they help
   };
 
   enum class LinearSolverKind
